@@ -113,7 +113,12 @@ impl Bench {
         let number = bus.add(self.device());
         bus.start(number);
         if self.name == "io" {
-            for (output, input) in [("out3", "in2"), ("aout1", "ain1")] {
+            for (output, input) in [
+                ("out3", "in2"),
+                ("out11", "in10"),
+                ("aout1", "ain1"),
+                ("aout2", "ain2"),
+            ] {
                 bus.connect((number, output), (number, input))
                     .expect("a wire");
             }

@@ -37,19 +37,30 @@ pub(super) fn device_type(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// 6002h inverts 6000h.
+/// 6002h inverts 6000h, in each group of inputs.
 pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
-    let polarity = Address::new(0x6002, 1);
+    for sub in 1..=dut.number(0x6002, 0)?.min(0xFE) as u8 {
+        let done = inverts(dut, sub);
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
+fn inverts(dut: &mut Dut<'_>, sub: u8) -> Checked {
+    let polarity = Address::new(0x6002, sub);
     let old = dut.keep(polarity)?;
-    let before = dut.number(0x6000, 1)?;
+    let before = dut.number(0x6000, sub)?;
     let inverted: Vec<u8> = old.iter().map(|byte| !byte).collect();
     dut.write(polarity, &inverted)?;
     // Wait until the module has read its inputs again.
     dut.wait(100_000)?;
-    let is = dut.number(0x6000, 1)?;
+    let is = dut.number(0x6000, sub)?;
     ensure(
         is == !before & 0xFF,
-        format!("6000h:01 = {:02X}h, inverted by 6002h:01", !before & 0xFF),
+        format!(
+            "6000h:{sub:02X} = {:02X}h, inverted by 6002h:{sub:02X}",
+            !before & 0xFF
+        ),
         format!("{is:02X}h was read, as if an input changed or 6002h had no effect"),
     )
 }

@@ -6,7 +6,7 @@ use od_model::Address;
 use od_wire::nmt::Command;
 
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::abort_text;
 
 /// Time in which a drive changes to another state or mode, in microseconds.
@@ -359,25 +359,45 @@ pub(super) fn at_once(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn limit(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_POSITION, |dut, axis| {
-        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
-        let most = Address::new(0x607D + axis.0, 2);
-        dut.keep(most)?;
-        let limit = from + way;
-        dut.write(most, &(limit as i32).to_le_bytes())?;
-        axis.set(dut, 0x607A, limit + way)?;
-        axis.command(dut, ENABLE | START)?;
-        let end = dut.now().plus_micros(CHANGE);
-        let window = axis.window(dut, 0x6067)?;
-        let mut place = from;
-        while dut.now() < end {
-            place = place.max(axis.value(dut, 0x6064)?);
-            dut.wait(10_000)?;
+        let way = axis.way(dut)?;
+        for (sub, sign, beyond) in [(2, 1, "above"), (1, -1, "below")] {
+            let edge = Address::new(0x607D + axis.0, sub);
+            if !dut.eds.writes(edge.index, sub) {
+                continue;
+            }
+            let before = dut.keep(edge)?;
+            let from = axis.value(dut, 0x6064)?;
+            let limit = from + sign * way;
+            dut.write(edge, &(limit as i32).to_le_bytes())?;
+            axis.command(dut, ENABLE)?;
+            dut.keep(axis.at(0x607A))?;
+            let target = (limit + sign * way) as i32;
+            // A drive may refuse such a target.
+            if dut
+                .download(axis.at(0x607A), &target.to_le_bytes())?
+                .is_ok()
+            {
+                axis.command(dut, ENABLE | START)?;
+            }
+            let end = dut.now().plus_micros(CHANGE);
+            let window = axis.window(dut, 0x6067)?;
+            let mut place = from;
+            while dut.now() < end {
+                let is = axis.value(dut, 0x6064)?;
+                place = if sign * is > sign * place { is } else { place };
+                dut.wait(10_000)?;
+            }
+            ensure(
+                sign * (place - limit) <= window,
+                format!(
+                    "{} not {beyond} {limit}, the limit in {edge}",
+                    axis.at(0x6064)
+                ),
+                format!("{place} was read"),
+            )?;
+            dut.write(edge, &before)?;
         }
-        ensure(
-            place <= limit + window,
-            format!("{} not above {limit}, the limit in {most}", axis.at(0x6064)),
-            format!("{place} was read"),
-        )
+        Ok(())
     })
 }
 
@@ -517,6 +537,212 @@ pub(super) fn quick_stop(dut: &mut Dut<'_>) -> Checked {
         }
         Ok(())
     })
+}
+
+/// Each ramp lasts longer with a smaller value of its object.
+pub(super) fn ramps(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let mut is_tested = false;
+        for ramp in RAMPS {
+            if dut.eds.writes(ramp.index + axis.0, 0) {
+                let done = axis.slow(dut, ramp).map(drop);
+                dut.fault(done)?;
+                is_tested = true;
+            }
+        }
+        if is_tested {
+            Ok(())
+        } else {
+            lacks("no object of a ramp can be written")
+        }
+    })
+}
+
+/// Code 1 slows down on the slow down ramp (6084h), code 2 on the quick stop ramp (6085h). 6084h is small here, so that
+/// the axis still moves with code 1 at the moment when it was at rest with code 2.
+pub(super) fn ramp_options(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        if !dut.eds.writes(0x6084 + axis.0, 0) || !axis.has(dut, 0x6085) {
+            return lacks("the drive does not have both ramps, 6084h rw and 6085h");
+        }
+        let pace = axis.pace(dut)?;
+        let slow = axis.slow(dut, DECELERATION)?;
+        axis.set(dut, 0x6084, slow)?;
+        if axis.has(dut, 0x6007) {
+            axis.set(dut, 0x6007, 1)?;
+        }
+        for stop in STOPS {
+            let has = dut.eds.writes(stop.index + axis.0, 0);
+            if !has || stop.index == 0x605E && !axis.has(dut, 0x6007) {
+                continue;
+            }
+            let done = axis.stops_by(dut, stop, pace);
+            dut.fault(done)?;
+        }
+        axis.recover(dut)
+    })
+}
+
+/// A ramp: its object, and the change of the speed on it.
+#[derive(Clone, Copy)]
+struct Ramp {
+    index: u16,
+    /// Whether the axis moves before the ramp, and rests after it.
+    is_stop: bool,
+    /// The controlword that begins the ramp; otherwise 60FFh begins it.
+    word: Option<u16>,
+}
+
+const DECELERATION: Ramp = Ramp {
+    index: 0x6084,
+    is_stop: true,
+    word: None,
+};
+const RAMPS: [Ramp; 3] = [
+    Ramp {
+        index: 0x6083,
+        is_stop: false,
+        word: None,
+    },
+    DECELERATION,
+    Ramp {
+        index: 0x6085,
+        is_stop: true,
+        word: Some(2),
+    },
+];
+
+/// An option code with the codes 1 and 2: the controlword that stops the axis, or NMT stop.
+#[derive(Clone, Copy)]
+struct Stop {
+    index: u16,
+    word: Option<u16>,
+}
+
+const STOPS: [Stop; 3] = [
+    Stop {
+        index: 0x605A,
+        word: Some(2),
+    },
+    Stop {
+        index: 0x605D,
+        word: Some(ENABLE | HALT),
+    },
+    Stop {
+        index: 0x605E,
+        word: None,
+    },
+];
+
+impl Axis {
+    /// Leads to Switch on disabled, also from a fault, whose reaction may last.
+    fn recover(self, dut: &mut Dut<'_>) -> Checked {
+        dut.nmt(Command::Start)?;
+        let end = dut.now().plus_micros(MOVE);
+        self.command(dut, 0)?;
+        while self.value(dut, 0x6041)? as u64 & DISABLED.1 != DISABLED.2 && dut.now() < end {
+            self.command(dut, 0x80)?;
+            self.command(dut, 0)?;
+            dut.wait(20_000)?;
+        }
+        self.shows(dut, 0, DISABLED)
+    }
+
+    /// Enables the operation again, after a stop or a fault, and moves the axis.
+    fn runs_again(self, dut: &mut Dut<'_>, pace: i64) -> Checked {
+        self.recover(dut)?;
+        self.enable(dut)?;
+        self.runs(dut, 0)?;
+        self.runs(dut, pace)
+    }
+
+    /// Finds a value of a ramp with which it lasts longer than with the present one, which returns. The quick stop option
+    /// code is 2 then.
+    fn slow(self, dut: &mut Dut<'_>, ramp: Ramp) -> Checked<i64> {
+        const LONGER: u64 = 200_000;
+        let pace = self.pace(dut)?;
+        let present = self.window(dut, ramp.index)?;
+        if ramp.word.is_some() && self.has(dut, 0x605A) {
+            self.choose(dut, 0x605A, 2)?;
+        }
+        let quick = self.takes(dut, ramp, pace)?;
+        let smaller = [4, 8, 12, 16].map(|bits| (present >> bits).max(1));
+        for value in smaller.into_iter().filter(|value| *value < present) {
+            self.runs_again(dut, if ramp.is_stop { pace } else { 0 })?;
+            self.choose(dut, ramp.index, value)?;
+            self.begin(dut, ramp, pace)?;
+            dut.wait(quick + LONGER)?;
+            let is = self.value(dut, 0x606C)?;
+            self.set(dut, ramp.index, present)?;
+            let wanted = if ramp.is_stop { 0 } else { pace };
+            if (is - wanted).abs() > pace / 10 {
+                return Ok(value);
+            }
+        }
+        fail(
+            format!(
+                "a longer ramp with a smaller value in {}",
+                self.at(ramp.index)
+            ),
+            format!("it lasts {} ms with every value", quick / 1000),
+        )
+    }
+
+    /// Begins a ramp.
+    fn begin(self, dut: &mut Dut<'_>, ramp: Ramp, pace: i64) -> Checked {
+        match ramp.word {
+            Some(word) => self.command(dut, word),
+            None => self.set(dut, 0x60FF, if ramp.is_stop { 0 } else { pace }),
+        }
+    }
+
+    /// Duration of a ramp with the present value, in microseconds.
+    fn takes(self, dut: &mut Dut<'_>, ramp: Ramp, pace: i64) -> Checked<u64> {
+        self.runs_again(dut, if ramp.is_stop { pace } else { 0 })?;
+        let from = dut.now();
+        self.begin(dut, ramp, pace)?;
+        let wanted = if ramp.is_stop { 0 } else { pace };
+        self.comes_to(dut, 0x606C, wanted, pace / 10, "at the end of the ramp")?;
+        Ok(dut.now().micros_since(from))
+    }
+
+    /// Stops with code 2, then with code 1.
+    fn stops_by(self, dut: &mut Dut<'_>, stop: Stop, pace: i64) -> Checked {
+        let mut quick = 0;
+        for code in [2, 1] {
+            match self.choose(dut, stop.index, code) {
+                // A drive need not have both codes.
+                Err(End::NotApplicable(_)) => return Ok(()),
+                done => done?,
+            }
+            self.runs_again(dut, pace)?;
+            let from = dut.now();
+            match stop.word {
+                Some(word) => self.command(dut, word)?,
+                None => {
+                    dut.nmt(Command::Stop)?;
+                    dut.nmt(Command::Start)?;
+                }
+            }
+            let when = format!("with {code} in {}", self.at(stop.index));
+            if code == 2 {
+                self.comes_to(dut, 0x606C, 0, pace / 10, &when)?;
+                quick = dut.now().micros_since(from);
+                continue;
+            }
+            dut.wait(quick.saturating_sub(dut.now().micros_since(from)))?;
+            let is = self.value(dut, 0x606C)?;
+            ensure(
+                is.abs() > pace / 10,
+                format!(
+                    "an axis that still moves after {} ms {when}, as 6084h is small",
+                    quick / 1000
+                ),
+                format!("{is} in {}", self.at(0x606C)),
+            )?;
+        }
+        Ok(())
+    }
 }
 
 /// Slow down, then the next state (code 1 in 605Bh and 605Ch).

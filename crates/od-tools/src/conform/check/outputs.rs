@@ -1,6 +1,7 @@
 //! CiA 401: outputs that change. Each case needs the permission `motion`.
 //!
-//! An output is seen at the input that is wired to it. A case looks for such a pair first.
+//! An output is seen at the input that is wired to it. A case looks for such a pair first: in each group of digital
+//! outputs, and for each analogue output.
 
 use od_model::Address;
 use od_wire::CobId;
@@ -9,7 +10,7 @@ use od_wire::nmt::Command;
 use super::heartbeat::{beat, watch};
 use super::transmit::{is_on, mapping};
 use crate::conform::dut::{Dut, QUIET};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 
 /// Time in which an input follows an output, in microseconds.
 const REACTION: u64 = 50_000;
@@ -30,6 +31,9 @@ impl Bit {
     /// Writes the bit of an object, and gives the module time; the old value returns after the case.
     fn write(self, dut: &mut Dut<'_>, index: u16, on: bool) -> Checked {
         let address = Address::new(index, self.sub);
+        if dut.eds.entry(index, self.sub).is_none() {
+            return lacks(format!("the EDS does not have {address}"));
+        }
         let old = dut.keep(address)?;
         let old = old.first().copied().unwrap_or_default();
         let new = if on {
@@ -54,10 +58,11 @@ struct Wire {
 }
 
 impl Wire {
-    /// Switches one output after the other until an input changes.
-    fn find(dut: &mut Dut<'_>) -> Checked<Self> {
+    /// Switches the outputs of each group, one after the other, until an input changes.
+    fn find(dut: &mut Dut<'_>) -> Checked<Vec<Self>> {
         dut.nmt(Command::Start)?;
         let before = all(dut, 0x6000)?;
+        let mut found = Vec::new();
         for sub in 1..=dut.number(0x6200, 0)?.min(0xFE) as u8 {
             for mask in (0..8).map(|bit| 1 << bit) {
                 let output = Bit { sub, mask };
@@ -70,11 +75,15 @@ impl Wire {
                     .map(|(sub, mask)| Bit { sub, mask })
                     .find(|input| input.mask.count_ones() == 1);
                 if let Some(input) = input {
-                    return Ok(Self { output, input });
+                    found.push(Self { output, input });
+                    break;
                 }
             }
         }
-        lacks("no digital output is wired to an input; connect one to run this case")
+        if found.is_empty() {
+            return lacks("no digital output is wired to an input; connect one to run this case");
+        }
+        Ok(found)
     }
 
     /// Fails unless the input has this value.
@@ -90,6 +99,30 @@ impl Wire {
             ),
             format!("{} was read", u8::from(is)),
         )
+    }
+}
+
+/// Tests each of these wires. The case applies if it applies to one of them.
+fn each<W>(
+    dut: &mut Dut<'_>,
+    wires: Vec<W>,
+    test: impl Fn(&mut Dut<'_>, &W) -> Checked,
+) -> Checked {
+    let (mut lacking, mut is_tested) = (None, false);
+    for wire in wires {
+        // The test of an earlier wire may have ended in an error.
+        dut.nmt(Command::Start)?;
+        match test(dut, &wire) {
+            Err(End::NotApplicable(why)) => lacking = Some(why),
+            done => {
+                dut.fault(done)?;
+                is_tested = true;
+            }
+        }
+    }
+    match lacking.filter(|_| !is_tested) {
+        Some(why) => lacks(why),
+        None => Ok(()),
     }
 }
 
@@ -138,61 +171,69 @@ pub(super) fn hold(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
-    let wire = Wire::find(dut)?;
-    let before = wire.input.read(dut, 0x6000)?;
-    wire.output.toggle(dut, 0x6202)?;
-    wire.shows(dut, !before, "after 6202h inverted its output")
+    let wires = Wire::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let before = wire.input.read(dut, 0x6000)?;
+        wire.output.toggle(dut, 0x6202)?;
+        wire.shows(dut, !before, "after 6202h inverted its output")
+    })
 }
 
 pub(super) fn filter_mask(dut: &mut Dut<'_>) -> Checked {
-    let wire = Wire::find(dut)?;
-    let before = wire.input.read(dut, 0x6000)?;
-    wire.output.write(dut, 0x6208, false)?;
-    wire.output.toggle(dut, 0x6200)?;
-    wire.shows(dut, before, "while 6208h masks its output")
+    let wires = Wire::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let before = wire.input.read(dut, 0x6000)?;
+        wire.output.write(dut, 0x6208, false)?;
+        wire.output.toggle(dut, 0x6200)?;
+        wire.shows(dut, before, "while 6208h masks its output")
+    })
 }
 
 /// Error mode 1: the error value; error mode 0: the last value.
 pub(super) fn error_value(dut: &mut Dut<'_>) -> Checked {
-    let wire = Wire::find(dut)?;
-    let before = wire.input.read(dut, 0x6000)?;
-    let value = wire.output.read(dut, 0x6200)?;
-    wire.output.write(dut, 0x6207, !value)?;
-    for (mode, wanted) in [(true, !before), (false, before)] {
-        wire.output.write(dut, 0x6206, mode)?;
-        let node = watch(dut, 200)?;
-        dut.nmt(Command::Start)?;
-        beat(dut, node)?;
-        wire.shows(dut, before, "while the heartbeat is in time")?;
-        dut.wait(500_000)?;
-        let why = format!(
-            "after a heartbeat is lost, with {} in 6206h",
-            u8::from(mode)
-        );
-        wire.shows(dut, wanted, &why)?;
-    }
-    Ok(())
+    let wires = Wire::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let before = wire.input.read(dut, 0x6000)?;
+        let value = wire.output.read(dut, 0x6200)?;
+        wire.output.write(dut, 0x6207, !value)?;
+        for (mode, wanted) in [(true, !before), (false, before)] {
+            wire.output.write(dut, 0x6206, mode)?;
+            let node = watch(dut, 200)?;
+            dut.nmt(Command::Start)?;
+            beat(dut, node)?;
+            wire.shows(dut, before, "while the heartbeat is in time")?;
+            dut.wait(500_000)?;
+            let why = format!(
+                "after a heartbeat is lost, with {} in 6206h",
+                u8::from(mode)
+            );
+            wire.shows(dut, wanted, &why)?;
+        }
+        Ok(())
+    })
 }
 
 pub(super) fn interrupt_mask(dut: &mut Dut<'_>) -> Checked {
-    let wire = Wire::find(dut)?;
-    let id = event_of(dut, 0x6000, wire.input.sub)?;
-    for (on, index) in [(false, 0x6007), (false, 0x6008), (true, 0x6006)] {
-        if dut.eds.has(index) {
-            wire.input.write(dut, index, on)?;
+    let wires = Wire::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let id = event_of(dut, 0x6000, wire.input.sub)?;
+        for (on, index) in [(false, 0x6007), (false, 0x6008), (true, 0x6006)] {
+            if dut.eds.has(index) {
+                wire.input.write(dut, index, on)?;
+            }
         }
-    }
-    for (enabled, mask) in [(1, true), (1, false), (0, true)] {
-        dut.set(Address::new(0x6005, 0), &[enabled])?;
-        wire.input.write(dut, 0x6006, mask)?;
-        let sent = caused(dut, id, |dut| wire.output.toggle(dut, 0x6200))?;
-        let when = format!(
-            "after an input changed, with {enabled} in 6005h and {} in 6006h",
-            u8::from(mask)
-        );
-        expect(sent, enabled == 1 && mask, id, &when)?;
-    }
-    Ok(())
+        for (enabled, mask) in [(1, true), (1, false), (0, true)] {
+            dut.set(Address::new(0x6005, 0), &[enabled])?;
+            wire.input.write(dut, 0x6006, mask)?;
+            let sent = caused(dut, id, |dut| wire.output.toggle(dut, 0x6200))?;
+            let when = format!(
+                "after an input changed, with {enabled} in 6005h and {} in 6006h",
+                u8::from(mask)
+            );
+            expect(sent, enabled == 1 && mask, id, &when)?;
+        }
+        Ok(())
+    })
 }
 
 /// Number of data frames with this CAN-ID since the frame `from`.
@@ -213,26 +254,28 @@ fn expect(sent: usize, wanted: bool, id: u16, when: &str) -> Checked {
 
 /// 6007h: from 0 to 1 only; 6008h: from 1 to 0 only.
 pub(super) fn edge_masks(dut: &mut Dut<'_>) -> Checked {
-    let wire = Wire::find(dut)?;
-    let id = event_of(dut, 0x6000, wire.input.sub)?;
-    dut.set(Address::new(0x6005, 0), &[1])?;
-    wire.input.write(dut, 0x6006, false)?;
-    for (rising, falling) in [(true, false), (false, true)] {
-        wire.input.write(dut, 0x6007, rising)?;
-        wire.input.write(dut, 0x6008, falling)?;
-        for _ in 0..2 {
-            let is_rising = !wire.input.read(dut, 0x6000)?;
-            let sent = caused(dut, id, |dut| wire.output.toggle(dut, 0x6200))?;
-            let when = format!(
-                "after an input became {}, with {} in 6007h and {} in 6008h",
-                u8::from(is_rising),
-                u8::from(rising),
-                u8::from(falling)
-            );
-            expect(sent, is_rising == rising, id, &when)?;
+    let wires = Wire::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let id = event_of(dut, 0x6000, wire.input.sub)?;
+        dut.set(Address::new(0x6005, 0), &[1])?;
+        wire.input.write(dut, 0x6006, false)?;
+        for (rising, falling) in [(true, false), (false, true)] {
+            wire.input.write(dut, 0x6007, rising)?;
+            wire.input.write(dut, 0x6008, falling)?;
+            for _ in 0..2 {
+                let is_rising = !wire.input.read(dut, 0x6000)?;
+                let sent = caused(dut, id, |dut| wire.output.toggle(dut, 0x6200))?;
+                let when = format!(
+                    "after an input became {}, with {} in 6007h and {} in 6008h",
+                    u8::from(is_rising),
+                    u8::from(rising),
+                    u8::from(falling)
+                );
+                expect(sent, is_rising == rising, id, &when)?;
+            }
         }
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// Number of frames with this CAN-ID that an action causes.
@@ -259,9 +302,10 @@ struct Analogue {
 }
 
 impl Analogue {
-    /// Changes one output after the other until an input changes.
-    fn find(dut: &mut Dut<'_>) -> Checked<Self> {
+    /// Changes one output after the other, and looks for an input that changes.
+    fn find(dut: &mut Dut<'_>) -> Checked<Vec<Self>> {
         dut.nmt(Command::Start)?;
+        let mut found = Vec::new();
         let count = dut.number(0x6401, 0)?.min(0xFE) as u8;
         for sub in 1..=dut.number(0x6411, 0)?.min(0xFE) as u8 {
             let output = Address::new(0x6411, sub);
@@ -275,10 +319,13 @@ impl Analogue {
             }
             let mut inputs = (1..).zip(seen[0].iter().zip(&seen[1]));
             if let Some((input, _)) = inputs.find(|(_, (before, after))| before != after) {
-                return Ok(Self { output, input });
+                found.push(Self { output, input });
             }
         }
-        lacks("no analogue output is wired to an input; connect one to run this case")
+        if found.is_empty() {
+            return lacks("no analogue output is wired to an input; connect one to run this case");
+        }
+        Ok(found)
     }
 
     /// The value of the input.
@@ -319,59 +366,63 @@ fn put(dut: &mut Dut<'_>, output: Address, value: i16) -> Checked {
 pub(super) fn delta(dut: &mut Dut<'_>) -> Checked {
     const SMALL: i16 = 100;
     const DELTA: u32 = 1000;
-    let wire = Analogue::find(dut)?;
-    let id = event_of(dut, 0x6401, wire.input)?;
-    dut.set(Address::new(0x6426, wire.input), &DELTA.to_le_bytes())?;
-    wire.select(dut, 1 << 2)?;
-    // The value of the last interrupt is STEP, or 0 of an earlier one: this change passes in either case.
-    put(dut, wire.output, 2 * STEP)?;
-    dut.wait(QUIET)?;
-    for (value, wanted) in [(2 * STEP + SMALL, false), (3 * STEP, true)] {
-        let sent = caused(dut, id, |dut| put(dut, wire.output, value))?;
-        let when = format!(
-            "after 6401h:{:02X} changed, with {DELTA} in 6426h",
-            wire.input
-        );
-        expect(sent, wanted, id, &when)?;
-    }
-    Ok(())
+    let wires = Analogue::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let id = event_of(dut, 0x6401, wire.input)?;
+        dut.set(Address::new(0x6426, wire.input), &DELTA.to_le_bytes())?;
+        wire.select(dut, 1 << 2)?;
+        // The value of the last interrupt is STEP, or 0 of an earlier one: this change passes in either case.
+        put(dut, wire.output, 2 * STEP)?;
+        dut.wait(QUIET)?;
+        for (value, wanted) in [(2 * STEP + SMALL, false), (3 * STEP, true)] {
+            let sent = caused(dut, id, |dut| put(dut, wire.output, value))?;
+            let when = format!(
+                "after 6401h:{:02X} changed, with {DELTA} in 6426h",
+                wire.input
+            );
+            expect(sent, wanted, id, &when)?;
+        }
+        Ok(())
+    })
 }
 
 /// Values on both sides of an upper and a lower limit, and the interrupt source.
 pub(super) fn limits(dut: &mut Dut<'_>) -> Checked {
-    let wire = Analogue::find(dut)?;
-    let id = event_of(dut, 0x6401, wire.input)?;
-    // The limit is between one and two steps.
-    let (below, above) = (wire.after(dut, STEP)?, wire.after(dut, 2 * STEP)?);
-    let limit = (i32::from(below) + i32::from(above)) / 2;
-    let source = Address::new(0x6422, 1 + (wire.input - 1) / 32);
-    for (reasons, index, outside, inside) in [(1, 0x6424, 3, 0), (2, 0x6425, 0, 3)] {
-        dut.set(Address::new(index, wire.input), &limit.to_le_bytes())?;
-        wire.select(dut, reasons)?;
-        put(dut, wire.output, inside * STEP)?;
-        let near = (inside + 1).min(2);
-        for (steps, wanted) in [
-            (near, false),
-            (outside, true),
-            (near, false),
-            (outside, true),
-        ] {
-            if dut.eds.has(0x6422) {
-                dut.read(source)?;
-            }
-            let sent = caused(dut, id, |dut| put(dut, wire.output, steps * STEP))?;
-            let when = format!(
-                "after 6401h:{:02X} became {}, with {limit} in {index:04X}h and {reasons} in 6421h",
-                wire.input,
-                wire.read(dut)?
-            );
-            expect(sent, wanted, id, &when)?;
-            if dut.eds.has(0x6422) {
-                shows_source(dut, source, wire.input, wanted)?;
+    let wires = Analogue::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let id = event_of(dut, 0x6401, wire.input)?;
+        // The limit is between one and two steps.
+        let (below, above) = (wire.after(dut, STEP)?, wire.after(dut, 2 * STEP)?);
+        let limit = (i32::from(below) + i32::from(above)) / 2;
+        let source = Address::new(0x6422, 1 + (wire.input - 1) / 32);
+        for (reasons, index, outside, inside) in [(1, 0x6424, 3, 0), (2, 0x6425, 0, 3)] {
+            dut.set(Address::new(index, wire.input), &limit.to_le_bytes())?;
+            wire.select(dut, reasons)?;
+            put(dut, wire.output, inside * STEP)?;
+            let near = (inside + 1).min(2);
+            for (steps, wanted) in [
+                (near, false),
+                (outside, true),
+                (near, false),
+                (outside, true),
+            ] {
+                if dut.eds.has(0x6422) {
+                    dut.read(source)?;
+                }
+                let sent = caused(dut, id, |dut| put(dut, wire.output, steps * STEP))?;
+                let when = format!(
+                    "after 6401h:{:02X} became {}, with {limit} in {index:04X}h and {reasons} in 6421h",
+                    wire.input,
+                    wire.read(dut)?
+                );
+                expect(sent, wanted, id, &when)?;
+                if dut.eds.has(0x6422) {
+                    shows_source(dut, source, wire.input, wanted)?;
+                }
             }
         }
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// 6422h has the bit of the input after its interrupt, and reading it clears the bit.
@@ -393,23 +444,25 @@ fn shows_source(dut: &mut Dut<'_>, source: Address, input: u8, is_set: bool) -> 
 
 /// Error mode 1: the error value; error mode 0: the last value.
 pub(super) fn analogue_error(dut: &mut Dut<'_>) -> Checked {
-    let wire = Analogue::find(dut)?;
-    let error = wire.after(dut, 3 * STEP)?;
-    let value = wire.after(dut, STEP)?;
-    let sub = wire.output.sub;
-    dut.set(
-        Address::new(0x6444, sub),
-        &i32::from(3 * STEP).to_le_bytes(),
-    )?;
-    for (mode, wanted) in [(1, error), (0, value)] {
-        dut.set(Address::new(0x6443, sub), &[mode])?;
-        let node = watch(dut, 200)?;
-        dut.nmt(Command::Start)?;
-        beat(dut, node)?;
-        wire.shows(dut, value, "while the heartbeat is in time")?;
-        dut.wait(500_000)?;
-        let why = format!("after a heartbeat is lost, with {mode} in 6443h");
-        wire.shows(dut, wanted, &why)?;
-    }
-    Ok(())
+    let wires = Analogue::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let error = wire.after(dut, 3 * STEP)?;
+        let value = wire.after(dut, STEP)?;
+        let sub = wire.output.sub;
+        dut.set(
+            Address::new(0x6444, sub),
+            &i32::from(3 * STEP).to_le_bytes(),
+        )?;
+        for (mode, wanted) in [(1, error), (0, value)] {
+            dut.set(Address::new(0x6443, sub), &[mode])?;
+            let node = watch(dut, 200)?;
+            dut.nmt(Command::Start)?;
+            beat(dut, node)?;
+            wire.shows(dut, value, "while the heartbeat is in time")?;
+            dut.wait(500_000)?;
+            let why = format!("after a heartbeat is lost, with {mode} in 6443h");
+            wire.shows(dut, wanted, &why)?;
+        }
+        Ok(())
+    })
 }
