@@ -3,7 +3,7 @@
 mod show;
 
 use od_eds::Tables;
-use od_eds::diff::{Difference, Impact, compare};
+use od_eds::diff::{Difference, Field, Impact, compare};
 use od_runtime::NodeId;
 use od_tools::compare as device;
 use od_tools::links;
@@ -16,6 +16,9 @@ use crate::source::{self, Source};
 ///
 /// An object only in the second dictionary is added, an object only in the first is removed. A
 /// difference is breaking if a master configured for the first device may fail with the second.
+///
+/// Exit code 0: the comparison is done; 1: a difference of --fail-on was found, or the node violates the protocol in the
+/// transfer of an object.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
@@ -75,6 +78,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let titles = [args.before.clone(), second];
     show::print(args.format, &titles, &found)?;
     let fails = |difference: &Difference| match args.fail_on {
+        _ if difference.field == Field::Transfer => true,
         Some(FailOn::Any) => true,
         Some(FailOn::Breaking) => difference.impact == Impact::Breaking,
         None => false,

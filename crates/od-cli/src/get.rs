@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use od_model::Visible;
 use od_runtime::NodeId;
 use od_tools::Error;
 use od_tools::master::Master;
@@ -20,7 +21,7 @@ use crate::source;
 /// index of an ARRAY or RECORD selects all its values. Types come from the file of --eds or the
 /// built-in device that matches 1018h, otherwise from the size of the value.
 ///
-/// Exit code 0: all values were read; 1: an SDO abort, or the node is silent.
+/// Exit code 0: all values were read; 1: an SDO abort, a violation of the protocol, or the node is silent.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID
@@ -73,8 +74,17 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Usage(why.into()));
     }
     let mut shown = Vec::new();
+    let mut has_fault = false;
     for one in &asked {
-        let read = Error::or_abort(master.upload(one.address))?;
+        let read = match master.upload(one.address) {
+            // The other objects may be read all the same.
+            Err(Error::Protocol(why)) if asked.len() > 1 => {
+                output::note!("{}", Visible(&why));
+                has_fault = true;
+                continue;
+            }
+            read => Error::or_abort(read)?,
+        };
         shown.push(Shown::new(
             dictionary,
             (one.address, one.entry.as_ref()),
@@ -105,9 +115,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Format::Text => value::lines(&shown),
         Format::Json => value::json(args.node.raw(), &shown),
     })?;
-    if shown
-        .iter()
-        .any(|one| one.result.is_err() && !one.has_no_data())
+    if has_fault
+        || shown
+            .iter()
+            .any(|one| one.result.is_err() && !one.has_no_data())
     {
         Err(Failure::Reported(1))
     } else {

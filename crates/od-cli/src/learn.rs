@@ -21,6 +21,9 @@ use crate::{bus, conform, files, output};
 /// tests which of them can be written, without changing a value.
 /// Comments in the file list what odkit could not find out: types of objects that no standard
 /// defines, limits, which values are saved.
+///
+/// Exit code 0: the file has every object; 1: the node does not respond, or violates the protocol in the transfer of an
+/// object, which is noted, and the file has all others.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID
@@ -101,7 +104,11 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
             output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
         }
     };
-    let Learned { description, left } = learn(&mut link, args.node, options, told)?;
+    let Learned {
+        description,
+        left,
+        faults,
+    } = learn(&mut link, args.node, options, told)?;
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
             "node {} has no objects from 1000h to 9FFFh",
@@ -122,7 +129,11 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
         }
     }
     output::save(args.output.as_deref(), &Visible(&text).lines())?;
+    for fault in &faults {
+        output::note!("{}", Visible(fault));
+    }
     match left {
+        None if !faults.is_empty() => Err(Failure::Reported(1)),
         Some(fault) => {
             output::note!(
                 "not all limits were probed; the file has all objects and the limits found so far"

@@ -165,7 +165,9 @@ fn title(one: &FoundNode) -> String {
             parts.push(format!("{what} {}", Visible(text)));
         }
     }
-    if !one.answers {
+    if one.is_wrong {
+        parts.push("its SDO responses do not belong to the requests".into());
+    } else if !one.answers {
         parts.push("does not respond to SDO requests".into());
     }
     parts.join(", ")
@@ -180,6 +182,7 @@ fn report(scan: &Scan, rate: Option<u16>, names: &Names) -> Value {
             "state": one.state.map(|state| state.name()),
             "booted": one.has_booted,
             "sdo": one.answers,
+            "sdo_wrong": one.is_wrong,
             "device_type": one.device_type,
             "vendor_id": vendor,
             "product_code": product,

@@ -9,13 +9,14 @@ use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 
-/// Reads every object of the dictionary that can be read. Other objects of the device are not reported as
+/// Reads every object of the dictionary that can be read. A transfer in which the device violates the protocol is a
+/// difference, too. Other objects of the device are not reported as
 /// added, since finding them takes a request for each of 65,536 indices.
 ///
 /// With `values` current values that differ from the defaults are differences, too.
 ///
 /// # Errors
-/// The link is lost, or the node does not respond.
+/// The link is lost, or the node does not respond to any request.
 pub fn compare(
     dictionary: Dictionary<'_>,
     client: &mut Master<impl Link>,
@@ -29,44 +30,53 @@ pub fn compare(
             if !entry.access.readable() {
                 continue;
             }
-            let (field, before, after, impact) =
-                match Error::or_abort(client.upload(entry.address))? {
-                    Ok(bytes) => match value(dictionary, &entry, &bytes, (node, values)) {
-                        Some(difference) => difference,
-                        None => continue,
-                    },
-                    Err(code) if code == AbortCode::NoObject.code() => {
-                        let has = format!("{} {}", object.code.name(), entry.data_type.name());
-                        found.push(at(
-                            dictionary,
-                            &object,
-                            entry.address,
-                            (Field::ObjectRemoved, has, String::new(), Impact::Breaking),
-                        ));
-                        break;
-                    }
-                    Err(code) if code == AbortCode::NoSubIndex.code() => (
-                        Field::EntryRemoved,
-                        format!("{} {}", entry.data_type.name(), entry.access.name()),
-                        String::new(),
-                        Impact::Breaking,
-                    ),
-                    Err(code) if code == AbortCode::WriteOnly.code() => (
-                        Field::Access,
-                        entry.access.name().into(),
-                        Access::Wo.name().into(),
-                        Impact::Breaking,
-                    ),
-                    // An empty error history, or a value that is not available now, says nothing
-                    // about the object.
-                    Err(code) if code == AbortCode::NoData.code() => continue,
-                    Err(code) => (
-                        Field::Access,
-                        entry.access.name().into(),
-                        format!("abort {}", AbortReason(code)),
-                        Impact::Breaking,
-                    ),
-                };
+            let read = match client.upload(entry.address) {
+                Err(Error::Node(why)) if !client.is_alive()? => return Err(Error::Node(why)),
+                Err(Error::Node(why) | Error::Protocol(why)) => {
+                    let access = entry.access.name().into();
+                    let what = (Field::Transfer, access, why, Impact::Breaking);
+                    found.push(at(dictionary, &object, entry.address, what));
+                    continue;
+                }
+                read => Error::or_abort(read)?,
+            };
+            let (field, before, after, impact) = match read {
+                Ok(bytes) => match value(dictionary, &entry, &bytes, (node, values)) {
+                    Some(difference) => difference,
+                    None => continue,
+                },
+                Err(code) if code == AbortCode::NoObject.code() => {
+                    let has = format!("{} {}", object.code.name(), entry.data_type.name());
+                    found.push(at(
+                        dictionary,
+                        &object,
+                        entry.address,
+                        (Field::ObjectRemoved, has, String::new(), Impact::Breaking),
+                    ));
+                    break;
+                }
+                Err(code) if code == AbortCode::NoSubIndex.code() => (
+                    Field::EntryRemoved,
+                    format!("{} {}", entry.data_type.name(), entry.access.name()),
+                    String::new(),
+                    Impact::Breaking,
+                ),
+                Err(code) if code == AbortCode::WriteOnly.code() => (
+                    Field::Access,
+                    entry.access.name().into(),
+                    Access::Wo.name().into(),
+                    Impact::Breaking,
+                ),
+                // An empty error history, or a value that is not available now, says nothing
+                // about the object.
+                Err(code) if code == AbortCode::NoData.code() => continue,
+                Err(code) => (
+                    Field::Access,
+                    entry.access.name().into(),
+                    format!("abort {}", AbortReason(code)),
+                    Impact::Breaking,
+                ),
+            };
             found.push(at(
                 dictionary,
                 &object,

@@ -29,8 +29,10 @@ pub enum Error {
     },
     /// The link cannot be opened, or is lost.
     Link(String),
-    /// A node does not respond, or violates the protocol.
+    /// A node does not respond, or lacks what a command needs.
     Node(String),
+    /// A node violates the protocol in the transfer of one object; it may serve its other objects.
+    Protocol(String),
     /// The node aborted the SDO transfer with this code (CiA 301, table 22).
     Abort(u32),
     /// The user stopped the program (Ctrl-C).
@@ -54,7 +56,9 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Usage(text) | Self::Link(text) | Self::Node(text) => f.write_str(text),
+            Self::Usage(text) | Self::Link(text) | Self::Node(text) | Self::Protocol(text) => {
+                f.write_str(text)
+            }
             Self::Filter { at, what } => write!(f, "{what} (at character {})", at + 1),
             Self::Case { id, line, message } => write!(f, "{id}.script:{line}: {message}"),
             Self::Abort(code) => write!(f, "SDO abort {}", AbortReason(*code)),

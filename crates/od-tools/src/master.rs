@@ -93,9 +93,9 @@ impl<L: Link> Master<L> {
     /// The link is lost, or the node aborts the transfer, does not respond, or violates the protocol.
     pub fn upload(&mut self, address: Address) -> Result<Vec<u8>, Error> {
         let mut tries = TRIES;
+        let standard = || outline::data_type(address.index, address.sub, is_var(address));
+        let data_type = self.types.get(&address).copied().or_else(standard);
         loop {
-            let standard = || outline::data_type(address.index, address.sub, is_var(address));
-            let data_type = self.types.get(&address).copied().or_else(standard);
             let job = match data_type {
                 Some(data_type) => self.client.read_as(self.node, address, data_type),
                 None => self.client.read(self.node, address),
@@ -108,8 +108,21 @@ impl<L: Link> Master<L> {
             tries -= 1;
             // A response to an earlier request, or to another program: the read can be repeated.
             if !matches!(result, Err(od_client::Error::OutOfTurn { .. })) || tries == 0 {
-                return self.outcome(address, result);
+                return self.outcome(address, data_type, result);
             }
+        }
+    }
+
+    /// Returns whether the node responds to a read of 1000h, if only with an abort or a wrong response: for a program
+    /// that continues after an object without a response.
+    ///
+    /// # Errors
+    /// The link is lost, or the user stops the program.
+    pub fn is_alive(&mut self) -> Result<bool, Error> {
+        match self.upload(Address::new(0x1000, 0)) {
+            Ok(_) | Err(Error::Abort(_) | Error::Protocol(_)) => Ok(true),
+            Err(Error::Node(_)) => Ok(false),
+            Err(other) => Err(other),
         }
     }
 
@@ -121,7 +134,7 @@ impl<L: Link> Master<L> {
         let job = self.client.write(self.node, address, bytes);
         loop {
             if let Event::Written(_, result) = self.event(job)? {
-                return self.outcome(address, result);
+                return self.outcome(address, None, result);
             }
         }
     }
@@ -131,7 +144,7 @@ impl<L: Link> Master<L> {
     fn event(&mut self, job: Job) -> Result<Event, Error> {
         let until = self.whole.map(|whole| self.link.now() + whole);
         let event = self.wait(until);
-        if matches!(event, Err(Error::Interrupted | Error::Node(_))) {
+        if matches!(event, Err(Error::Interrupted | Error::Protocol(_))) {
             let now = self.link.now();
             self.client.cancel(now, job);
             while let Some(frame) = self.client.poll_transmit(now) {
@@ -151,7 +164,7 @@ impl<L: Link> Master<L> {
                 && end.is_some_and(|end| self.link.now() > end)
             {
                 let (node, seconds) = (self.node, whole.as_secs_f32());
-                return Err(Error::Node(format!(
+                return Err(Error::Protocol(format!(
                     "node {node} does not finish a transfer within {seconds} s"
                 )));
             }
@@ -177,23 +190,32 @@ impl<L: Link> Master<L> {
     fn outcome<T>(
         &self,
         address: Address,
+        data_type: Option<DataType>,
         result: Result<T, od_client::Error>,
     ) -> Result<T, Error> {
         let node = self.node;
-        Err(Error::Node(match result {
+        Err(Error::Protocol(match result {
             Ok(done) => return Ok(done),
             Err(od_client::Error::Abort(code)) => return Err(Error::Abort(code)),
-            Err(od_client::Error::Silent) => format!(
-                "node {node} does not respond to SDO requests within {} s (to that for {address}); check its \
-                 power, its NMT state (not Stopped) and its node ID",
-                self.timeout.as_secs_f32()
-            ),
+            Err(od_client::Error::Silent) => {
+                return Err(Error::Node(format!(
+                    "node {node} does not respond to SDO requests within {} s (to that for {address}); check its \
+                     power, its NMT state (not Stopped) and its node ID",
+                    self.timeout.as_secs_f32()
+                )));
+            }
             Err(error @ od_client::Error::OutOfTurn { .. }) => format!(
                 "node {node}: {address}: {error}; does another program read or write this node?"
             ),
             Err(od_client::Error::TooLong) => {
                 let limit = OPTIONS.limit;
-                format!("node {node}: {address} is longer than {limit} bytes")
+                match data_type.filter(|data_type| data_type.size().is_some()) {
+                    Some(fixed) => format!(
+                        "node {node}: {address}: the value is much longer than its type, {}",
+                        fixed.name()
+                    ),
+                    None => format!("node {node}: {address} is longer than {limit} bytes"),
+                }
             }
             Err(other) => format!("node {node}: {address}: {other}"),
         }))

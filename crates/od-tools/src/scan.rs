@@ -53,6 +53,8 @@ pub struct FoundNode {
     pub has_booted: bool,
     /// Whether it responds to SDO requests; in Stopped it does not.
     pub answers: bool,
+    /// Its SDO responses are for other objects than those of the requests, or shorter than 8 bytes.
+    pub is_wrong: bool,
     /// 1000h, device type.
     pub device_type: Option<u32>,
     /// 1018h: vendor-ID, product code, revision number, serial number.
@@ -78,6 +80,8 @@ struct Heard {
     states: BTreeMap<NodeId, State>,
     boot_ups: BTreeSet<NodeId>,
     answers: BTreeMap<NodeId, Vec<[u8; 8]>>,
+    /// Nodes whose SDO responses do not belong to the request.
+    wrong: BTreeSet<NodeId>,
     /// Index and sub-index of the requests, as in a frame: a response to an earlier request is ignored.
     asked: [u8; 3],
     has_unconfigured: bool,
@@ -143,6 +147,10 @@ pub fn scan(
     for node in heard.states.keys().chain(&heard.boot_ups) {
         found.entry(*node).or_insert_with(|| FoundNode::new(*node));
     }
+    for node in &heard.wrong {
+        let one = found.entry(*node).or_insert_with(|| FoundNode::new(*node));
+        one.is_wrong = !one.answers;
+    }
     for (node, one) in &mut found {
         one.state = heard.states.get(node).copied();
         one.has_booted = heard.boot_ups.contains(node);
@@ -160,6 +168,7 @@ impl FoundNode {
             state: None,
             has_booted: false,
             answers: false,
+            is_wrong: false,
             device_type: None,
             identity: [None; 4],
             texts: [None, None, None],
@@ -196,7 +205,7 @@ impl FoundNode {
 fn optional(read: Result<Vec<u8>, Error>) -> Result<Option<Vec<u8>>, Error> {
     match read {
         Ok(bytes) => Ok(Some(bytes)),
-        Err(Error::Abort(_) | Error::Node(_)) => Ok(None),
+        Err(Error::Abort(_) | Error::Node(_) | Error::Protocol(_)) => Ok(None),
         Err(fault) => Err(fault),
     }
 }
@@ -262,10 +271,15 @@ impl Heard {
             .and_then(|node| u8::try_from(node).ok());
         if let Some(node) = node.and_then(NodeId::new)
             && !frame.is_remote()
-            && frame.dlc() == 8
-            && frame.bytes()[1..4] == self.asked
+            && self.asked != [0; 3]
         {
-            self.answers.entry(node).or_default().push(*frame.bytes());
+            let [_, low, high, sub, ..] = *frame.bytes();
+            if frame.dlc() == 8 && [low, high, sub] == self.asked {
+                self.answers.entry(node).or_default().push(*frame.bytes());
+            } else if u16::from_le_bytes([low, high]) != DEVICE_TYPE.index {
+                // A late response to the first request is right.
+                self.wrong.insert(node);
+            }
         }
     }
 }

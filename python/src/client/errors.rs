@@ -25,7 +25,7 @@ pub(crate) fn raised(fault: Error) -> PyErr {
     match fault {
         Error::Usage(text) => PyValueError::new_err(text),
         Error::Link(text) => PyOSError::new_err(text),
-        Error::Node(text) => NodeError::new_err(text),
+        Error::Node(text) | Error::Protocol(text) => NodeError::new_err(text),
         Error::Interrupted => PyKeyboardInterrupt::new_err(()),
         other => PyOSError::new_err(other.to_string()),
     }

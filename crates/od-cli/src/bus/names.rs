@@ -87,6 +87,7 @@ impl Names {
             // and not to the others has only its vendor.
             let read = match Error::or_abort(master.upload(Address::new(0x1018, sub))) {
                 Err(Error::Node(_)) if sub > 1 => break,
+                Err(Error::Protocol(_)) => break,
                 read => read?,
             };
             let bytes = read.ok().and_then(|bytes| bytes.as_slice().try_into().ok());

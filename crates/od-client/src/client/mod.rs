@@ -87,10 +87,15 @@ impl Client {
     }
 
     /// Like [`read`](Self::read), for an object with a known data type: a response without a size has the
-    /// length of the type, and a DOMAIN is read in blocks.
+    /// length of the type, and a DOMAIN is read in blocks. A value that is more than 64 bytes longer than a type of
+    /// fixed length fails with [`Error::TooLong`](crate::Error::TooLong).
     pub fn read_as(&mut self, node: NodeId, object: Address, data_type: DataType) -> Job {
+        const BEYOND: usize = 64;
         let mut options = self.options;
         options.type_size = data_type.size();
+        if let Some(size) = options.type_size {
+            options.limit = options.limit.min(size + BEYOND);
+        }
         options.block_upload |= data_type == DataType::Domain;
         self.transfer(node, object, None, options)
     }

@@ -52,6 +52,8 @@ pub enum Field {
     HighLimit,
     /// Group of 1010h that saves it.
     Storage,
+    /// The node violates the protocol in the transfer of the value, or does not respond to its request.
+    Transfer,
 }
 
 impl Field {
@@ -69,6 +71,7 @@ impl Field {
             Self::LowLimit => "low limit",
             Self::HighLimit => "high limit",
             Self::Storage => "storage",
+            Self::Transfer => "SDO transfer",
         }
     }
 }

@@ -34,12 +34,14 @@ pub struct Learned {
     pub description: Description,
     /// Reason why probing stopped early; the description has the limits that were found before.
     pub left: Option<Error>,
+    /// Objects whose transfer failed, in words: the node violates the protocol, or does not respond.
+    pub faults: Vec<String>,
 }
 
 /// Reads all objects from 1000h to 9FFFh; `told` is called with each index that is a multiple of 1000h.
 ///
 /// # Errors
-/// The link is lost, or the node stops responding, before all objects are read.
+/// The link is lost, or the node stops responding, or does not respond to eight objects in a row, before all objects are read.
 pub fn learn(
     link: impl Link,
     node: NodeId,
@@ -84,7 +86,11 @@ pub fn learn(
     let sections = file::sections(&objects, node, &options, has_lss);
     let mut description = Description { sections, objects };
     file::allow_errors(&mut description);
-    Ok(Learned { description, left })
+    Ok(Learned {
+        description,
+        left,
+        faults: probe.faults,
+    })
 }
 
 /// Bits 0 to 15 of a value; 0 if the node does not have it.

@@ -70,7 +70,14 @@ pub(super) struct Probe<L> {
     checks_access: Option<bool>,
     /// Whether the node responds to sub-indices that an object cannot have; `None`: not known yet.
     ignores_sub: Option<bool>,
+    /// Objects that could not be read, in words.
+    pub(super) faults: Vec<String>,
+    /// Number of objects in a row without a response.
+    silent: u8,
 }
+
+/// Number of objects in a row without a response after which a node is not asked for more.
+const SILENT: u8 = 8;
 
 impl<L: Link> Probe<L> {
     pub(super) fn new(link: L, node: NodeId) -> Self {
@@ -80,12 +87,45 @@ impl<L: Link> Probe<L> {
             minds: None,
             checks_access: None,
             ignores_sub: None,
+            faults: Vec::new(),
+            silent: 0,
         }
     }
 
-    /// Reads a value, and if it exists, tests whether it can be written.
+    /// Reads a value, and if it exists, tests whether it can be written. A transfer in which the node violates the
+    /// protocol shows that the object exists.
     pub(super) fn read(&mut self, address: Address) -> Result<There, Error> {
-        let (bytes, is_write_only) = match Error::or_abort(self.master.upload(address))? {
+        let read = match self.master.upload(address) {
+            Err(Error::Protocol(why)) => {
+                self.faults
+                    .push(format!("{why}; the file has the object without its value"));
+                return Ok(There::Value(FoundObject {
+                    address,
+                    bytes: None,
+                    is_write_only: false,
+                    writable: None,
+                    room: None,
+                }));
+            }
+            Err(Error::Node(why)) => {
+                self.silent += 1;
+                if self.silent == SILENT || !self.master.is_alive()? {
+                    return Err(Error::Node(why));
+                }
+                let node = self.node;
+                self.faults.push(format!(
+                    "node {node} does not respond to the request for {address}; the file does not have the object"
+                ));
+                return Ok(if address.sub == 0 {
+                    There::NoObject
+                } else {
+                    There::NoSubIndex
+                });
+            }
+            read => Error::or_abort(read)?,
+        };
+        self.silent = 0;
+        let (bytes, is_write_only) = match read {
             Ok(bytes) => (Some(bytes), false),
             Err(code) if code == NoObject.code() => return Ok(There::NoObject),
             Err(code) if code == NoSubIndex.code() => return Ok(There::NoSubIndex),
@@ -147,12 +187,12 @@ impl<L: Link> Probe<L> {
         let Some(bytes) = found.bytes.as_deref().filter(|bytes| !bytes.is_empty()) else {
             return Ok(None);
         };
-        Ok(
-            match Error::or_abort(self.master.download(found.address, bytes))? {
-                Ok(()) => Some(true),
-                Err(code) => (is_fixed(code)).then_some(false),
-            },
-        )
+        match self.master.download(found.address, bytes) {
+            Ok(()) => Ok(Some(true)),
+            Err(Error::Abort(code)) => Ok(is_fixed(code).then_some(false)),
+            Err(Error::Protocol(_)) => Ok(None),
+            Err(other) => Err(other),
+        }
     }
 
     /// Returns whether an LSS slave has this LSS address. The slave is in LSS waiting state afterwards.
@@ -188,14 +228,14 @@ impl<L: Link> Probe<L> {
         Ok(is_there)
     }
 
-    /// Reads the value again.
+    /// Reads the value again; `None` after an abort, or if the node violates the protocol.
     pub(super) fn bytes(&mut self, address: Address) -> Result<Option<Vec<u8>>, Error> {
-        Ok(Error::or_abort(self.master.upload(address))?.ok())
+        done(self.master.upload(address))
     }
 
     /// Writes a value, and returns whether the node accepts it.
     pub(super) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<bool, Error> {
-        Ok(Error::or_abort(self.master.download(address, bytes))?.is_ok())
+        Ok(done(self.master.download(address, bytes))?.is_some())
     }
 
     /// Lets the master wait again after Ctrl-C.
@@ -381,6 +421,15 @@ impl<L: Link> Probe<L> {
                 Err(fault) => return Err(fault),
             }
         }
+    }
+}
+
+/// The result of a transfer; `None` after an abort, or if the node violates the protocol.
+fn done<T>(result: Result<T, Error>) -> Result<Option<T>, Error> {
+    match result {
+        Ok(done) => Ok(Some(done)),
+        Err(Error::Abort(_) | Error::Protocol(_)) => Ok(None),
+        Err(other) => Err(other),
     }
 }
 

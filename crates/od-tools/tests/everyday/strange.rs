@@ -1,7 +1,10 @@
 //! Slaves that violate the standards: what a master accepts, and when it gives up.
 
+use od_eds::diff::Field;
 use od_model::Address;
 use od_tools::Error;
+use od_tools::compare::compare;
+use od_tools::learn::{Options, learn};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_tools::scan::{ScanTimes, scan};
@@ -116,11 +119,120 @@ fn a_watch_ends_at_its_time() {
 fn a_read_with_a_time_limit_names_it() {
     let mut slave = Slave::new(endless);
     let mut master = Master::new(&mut slave, id(5)).within(Duration::from_secs(2));
-    let Err(Error::Node(why)) = master.upload(Address::new(0x1008, 0)) else {
+    let Err(Error::Protocol(why)) = master.upload(Address::new(0x1008, 0)) else {
         panic!("it came to an end");
     };
     assert!(why.contains("within 2 s"), "{why}");
     assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+#[test]
+fn a_number_without_end_is_read_to_a_little_more_than_its_type() {
+    let mut slave = Slave::new(endless);
+    let mut master = Master::new(&mut slave, id(5));
+    // 1006h is an UNSIGNED32 of the standard.
+    let Err(Error::Protocol(why)) = master.upload(Address::new(0x1006, 0)) else {
+        panic!("it came to an end");
+    };
+    assert!(why.contains("1006h") && why.contains("UNSIGNED32"), "{why}");
+    assert!(slave.heard.len() < 15, "{} requests", slave.heard.len());
+    assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+/// A server with 1000h, 1018h:00 to 03 and 2001h, whose 2000h is a text with the wrong toggle bit. It does not respond to
+/// requests for 2002h.
+fn faulty(request: &[u8; 8]) -> Option<[u8; 8]> {
+    let index = u16::from_le_bytes([request[1], request[2]]);
+    Some(match (request[0] >> 5, index, request[3]) {
+        (_, 0x2002, _) => return None,
+        (2, 0x1000 | 0x2001, 0) => about(request, 0x43, [1, 2, 3, 4]),
+        (2, 0x1018, 0) => about(request, 0x4F, [3, 0, 0, 0]),
+        (2, 0x1018, 1..=3) => about(request, 0x43, [1, 2, 3, 4]),
+        (2, 0x2000, 0) => about(request, 0x41, [16, 0, 0, 0]),
+        (2, 0x1000 | 0x1018 | 0x2000 | 0x2001, _) => about(request, 0x80, [0x11, 0, 9, 6]),
+        (2 | 5, ..) => about(request, 0x80, [0, 0, 2, 6]),
+        (3, ..) => [!request[0] & 0x10, b'a', b'b', b'c', b'd', b'e', b'f', b'g'],
+        (1, ..) => about(request, 0x80, [2, 0, 1, 6]),
+        _ => return None,
+    })
+}
+
+#[test]
+fn a_fault_of_one_object_does_not_end_learning() {
+    let mut slave = Slave::new(faulty);
+    let made = learn(&mut slave, id(5), Options::default(), |_| {}).expect("a node");
+    let objects: Vec<u16> = made.description.objects.keys().copied().collect();
+    assert_eq!(objects, [0x1000, 0x1018, 0x2000, 0x2001]);
+    let [toggle, silent] = made.faults.as_slice() else {
+        panic!("{:?}", made.faults);
+    };
+    assert!(
+        toggle.contains("2000h") && toggle.contains("toggle"),
+        "{toggle}"
+    );
+    assert!(
+        silent.contains("2002h") && silent.contains("does not respond"),
+        "{silent}"
+    );
+    // A node that has become silent is not asked for 36,864 objects.
+    let mut requests = 0;
+    let mut slave = Slave::new(|request: &[u8; 8]| {
+        requests += 1;
+        faulty(request).filter(|_| requests < 100)
+    });
+    let made = learn(&mut slave, id(5), Options::default(), |_| {});
+    assert!(matches!(made, Err(Error::Node(_))), "{made:?}");
+    let seconds = slave.now.as_micros() / 1_000_000;
+    assert!(seconds < 10, "{seconds}");
+}
+
+#[test]
+fn a_fault_of_one_object_does_not_end_a_comparison() {
+    let mut text = String::from("[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n");
+    text += "[ManufacturerObjects]\nSupportedObjects=4\n1=0x2000\n2=0x2001\n3=0x2002\n4=0x2003\n";
+    for (index, data_type) in [
+        (0x1000, 7),
+        (0x2000, 9),
+        (0x2001, 7),
+        (0x2002, 7),
+        (0x2003, 7),
+    ] {
+        text += &format!("[{index:X}]\nParameterName=Value\nDataType={data_type}\nAccessType=ro\n");
+    }
+    let tables = od_eds::Tables::new(&od_eds::parse(&text).description);
+    let mut slave = Slave::new(faulty);
+    let found = compare(
+        tables.dictionary(),
+        &mut Master::new(&mut slave, id(5)),
+        false,
+    );
+    let found: Vec<(u16, Field)> = found
+        .expect("a node")
+        .iter()
+        .map(|one| (one.index, one.field))
+        .collect();
+    let wanted = [
+        (0x2000, Field::Transfer),
+        (0x2002, Field::Transfer),
+        (0x2003, Field::ObjectRemoved),
+    ];
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_node_whose_responses_name_another_object_is_found() {
+    let mut slave = Slave::new(|request: &[u8; 8]| {
+        let mut answer = about(request, 0x43, [1, 2, 3, 4]);
+        answer[1] ^= 1;
+        Some(answer)
+    });
+    let scan = scan(&mut slave, ScanTimes::default(), |_| {}).expect("a link");
+    let found: Vec<_> = scan
+        .nodes
+        .iter()
+        .map(|one| (one.node.raw(), one.answers, one.is_wrong))
+        .collect();
+    assert_eq!(found, [(5, false, true)]);
 }
 
 /// A server that never indicates the size of an expedited value: 2001h is 1000, an UNSIGNED16.
@@ -143,7 +255,7 @@ fn a_value_without_a_size_is_read_by_its_type() {
     assert_eq!(master.upload(Address::new(0x1017, 0)), Ok(vec![0xE8, 3]));
     master.know(tables.dictionary());
     assert_eq!(master.upload(gain), Ok(vec![0xE8, 3]));
-    let found = od_tools::compare::compare(tables.dictionary(), &mut master, false);
+    let found = compare(tables.dictionary(), &mut master, false);
     assert_eq!(found, Ok(Vec::new()));
     let setting = od_tools::configure::Setting {
         address: gain,
