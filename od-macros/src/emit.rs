@@ -27,17 +27,14 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
         name,
         ..
     } = input;
-    let mut text = String::new();
-    device(&mut text, input, &family.base, None);
-    let body = lex(&text);
+    let body = device(input, &family.base, None);
     let paths = source.paths.iter().filter_map(|path| path.to_str());
     let track = paths.map(|path| quote! { const _: &[u8] = ::core::include_bytes!(#path); });
     let about = about(source, family);
     let variants = input.variants.iter().zip(&family.variants);
     let variants = variants.map(|(variant, made)| {
-        let mut text = String::new();
-        device(&mut text, input, made, Some(&family.base.items));
-        let (attrs, name, body) = (&variant.attrs, &variant.name, lex(&text));
+        let body = device(input, made, Some(&family.base.items));
+        let (attrs, name) = (&variant.attrs, &variant.name);
         let about = docs::variant(&input.name.to_string(), &variant.statements);
         quote! {
             #(#attrs)*
@@ -59,12 +56,11 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
 
 /// Path of the items that generated code uses; its number changes with their version, so that a macro and a crate of
 /// different versions do not compile together.
-fn root(input: &Input) -> String {
-    let odkit = match &input.root {
-        Some(path) => quote!(#path).to_string(),
-        None => String::from("::odkit"),
-    };
-    format!("{odkit}::__private7")
+fn root(input: &Input) -> TokenStream {
+    match &input.root {
+        Some(path) => quote!(#path::__private7),
+        None => quote!(::odkit::__private7),
+    }
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -102,15 +98,13 @@ fn lex(text: &str) -> TokenStream {
 }
 
 /// The contents of the module of one device; a variant re-exports the items that it shares with `family`.
-fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&[Item]>) {
-    let root = &root(input);
+fn device(input: &Input, device: &Device, of_variant: Option<&[Item]>) -> TokenStream {
+    let path = root(input);
+    let root = &path.to_string();
     let family = of_variant.unwrap_or_default();
-    let _ = writeln!(out, "use {root}::*;");
+    let out = &mut String::new();
     dictionary(out, root, &device.tables);
-    let depth = if of_variant.is_some() { 2 } else { 1 };
-    let services = input.services.constants();
-    let profile = input.services.profile(root, depth);
-    node(out, root, &services, &profile);
+    node(out, root, &input.services.constants());
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
@@ -125,6 +119,20 @@ fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&
     }
     if of_variant.is_none() {
         near_names::write(out, &device.items);
+    }
+    let depth = if of_variant.is_some() { 2 } else { 1 };
+    let profile = input.services.profile(depth);
+    let text = lex(out);
+    quote! {
+        use #path::*;
+        #text
+        impl #path::Device for Device {
+            type Values = Values;
+            type Rooms = Rooms;
+            #[inline]
+            fn dictionary(&self) -> Dictionary<'_> { DICTIONARY }
+            #profile
+        }
     }
 }
 
@@ -281,7 +289,7 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
 }
 
 /// The device as a type, and its node.
-fn node(out: &mut String, root: &str, services: &str, profile: &str) {
+fn node(out: &mut String, root: &str, services: &str) {
     let _ = write!(
         out,
         "#[doc = \"The device of [`DICTIONARY`], as a type.\"]
@@ -291,12 +299,6 @@ impl {root}::Services for Device {{
 const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
 ::core::option::Option::Some(DICTIONARY);
 {services}}}
-impl {root}::Device for Device {{
-type Values = Values;
-type Rooms = Rooms;
-#[inline]
-fn dictionary(&self) -> {root}::Dictionary<'_> {{ DICTIONARY }}
-{profile}}}
 {root}::rooms!(Device);
 #[doc = \"A node of this device, with the behaviour `A` and the storage `S`.\"]
 pub type Node<A = {root}::NoApplication, S = {root}::NoStorage> = {root}::Node<Device, A, S>;

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_eds::patch::{self, Edit};
+use od_eds::patch::{self, Action, Change, Edit};
 use od_eds::{Description, Finding, Key, Spanned, Tables};
-use od_model::{Address, Slot};
+use od_model::{Address, ObjectCode, Slot};
 use proc_macro2::Span;
 
 use crate::files::Files;
@@ -46,14 +46,21 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
     } else {
         od_eds::check::check(&base)
     };
-    let made = told.patch(&mut base, &before, &input.statements, home, "", report);
+    let before = Checked {
+        all: before,
+        ..Checked::default()
+    };
+    let mut made = told.patch(&mut base, &before, &input.statements, home, "", report);
     let left = source.findings.iter();
     let left = left.filter(|finding| !fixed(finding, &base, &input.statements));
-    let mut eds: Vec<Finding> = left.cloned().chain(made.old).collect();
+    let old = std::mem::take(&mut made.old);
+    let mut eds: Vec<Finding> = left.cloned().chain(old).collect();
     eds.sort_by_key(|finding| finding.span().map_or(0, |span| span.start));
     source.allows.clone().filter(&mut eds);
     findings::tell(&eds, home, files, &base, report);
-    if let (Some(profile), true) = (&input.profile, report.is_whole()) {
+    let device_type = Address::new(0x1000, 0);
+    let is_sound = report.is_read(0x1000) && !made.broken.contains(&device_type);
+    if let (Some(profile), true) = (&input.profile, is_sound) {
         crate::profile::check(profile, &base, report);
     }
 
@@ -65,7 +72,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
             let context = format!("variant `{}`: ", variant.name);
             told.patch(
                 &mut description,
-                &made.all,
+                &made,
                 &variant.statements,
                 variant.name.span(),
                 &context,
@@ -160,10 +167,13 @@ fn devices(
 }
 
 /// Findings about a description after a patch.
+#[derive(Default)]
 struct Checked {
-    /// Findings that the base has, too.
+    /// Findings that the base has, too, and that are not a consequence.
     old: Vec<Finding>,
     all: Vec<Finding>,
+    /// Addresses with errors of the statements so far.
+    broken: BTreeSet<Address>,
 }
 
 /// Receiver of findings.
@@ -174,13 +184,12 @@ struct Findings<'a> {
 impl Findings<'_> {
     /// Applies statements to a description with the findings `before`, and checks the result.
     ///
-    /// Errors of the statements and new findings are reported at the edit that caused them, or at `home`. While a
-    /// statement is wrong, only findings about a single value that it does not change are reported, since all others
-    /// may be consequences.
+    /// Errors of the statements and new findings are reported at the edit that caused them, or at `home`, but no
+    /// finding that may be a consequence of a wrong statement.
     fn patch(
         &self,
         description: &mut Description,
-        before: &[Finding],
+        before: &Checked,
         statements: &[Statement],
         home: Span,
         context: &str,
@@ -190,11 +199,13 @@ impl Findings<'_> {
         let edits = edits(statements, report);
         let mut faults = patch::apply(description, &edits);
         faults.extend(handles::check_renames(statements, description, report));
-        let index = |finding: &Finding| finding.object.map(|address| address.index);
         faults.retain(|fault| {
-            let missing = matches!(fault.code(), "E0701" | "E0703");
-            index(fault).is_none_or(|index| report.is_read(index))
-                && !(missing && report.has_lost())
+            let Some(address) = fault.object else {
+                return true;
+            };
+            let is_missing = matches!(fault.code(), "E0701" | "E0703" | "E0704");
+            let is_known = !report.has_lost() && report.is_read(address.index);
+            !report.half_read_ones().contains(&address) && (is_known || !is_missing)
         });
         let patch = findings::Patch {
             edits: &edits,
@@ -204,22 +215,20 @@ impl Findings<'_> {
             files: self.files,
         };
         patch.tell(&faults, description, report);
-        let mut all = od_eds::check::check(description);
-        if !report.is_whole() || !faults.is_empty() {
-            let broken: BTreeSet<u16> = faults.iter().filter_map(index).collect();
-            all.retain(|finding| {
-                let is_sound = |index| report.is_read(index) && !broken.contains(&index);
-                finding.rule.is_of_one_value() && index(finding).is_none_or(is_sound)
-            });
-        }
+        let all = od_eds::check::check(description);
+        let mut broken = before.broken.clone();
+        broken.extend(faults.iter().filter_map(|fault| fault.object));
+        let doubtful = &broken | report.half_read_ones();
+        let is_sure = |finding: &&Finding| {
+            !finding.may_follow(&doubtful) && (finding.rule.is_of_one_value() || !report.has_lost())
+        };
+        let sure = all.iter().filter(is_sure).cloned();
         if edits.is_empty() {
-            return Checked {
-                old: all.clone(),
-                all,
-            };
+            let old = sure.collect();
+            return Checked { old, all, broken };
         }
         let mut known: BTreeMap<_, Vec<&Finding>> = BTreeMap::new();
-        for finding in before {
+        for finding in &before.all {
             let key = (finding.code(), finding.object);
             known.entry(key).or_default().push(finding);
         }
@@ -227,9 +236,9 @@ impl Findings<'_> {
             let alike = known.get(&(finding.code(), finding.object));
             alike.is_some_and(|alike| alike.contains(&finding))
         };
-        let (old, new): (Vec<Finding>, Vec<Finding>) = all.iter().cloned().partition(is_old);
+        let (old, new): (Vec<Finding>, Vec<Finding>) = sure.partition(is_old);
         patch.blame(&new, description, report);
-        Checked { old, all }
+        Checked { old, all, broken }
     }
 }
 
@@ -265,6 +274,17 @@ fn lay_out(family: &mut [&mut Tables]) {
     }
 }
 
+/// Returns whether a statement adds a sub-object to this object.
+fn has_members(statements: &[Statement], object: u16) -> bool {
+    statements.iter().any(|statement| match statement {
+        Statement::Edit { action, target, .. } => {
+            let target = target.target;
+            *action == Action::Add && target.index == object && target.sub.is_some()
+        }
+        Statement::Rename { .. } => false,
+    })
+}
+
 /// The statements of a call as edits of the description, in their order, each with the place of its token.
 fn edits(statements: &[Statement], report: &mut Report) -> Vec<Edit> {
     let mut edits = Vec::new();
@@ -282,6 +302,12 @@ fn edits(statements: &[Statement], report: &mut Report) -> Vec<Edit> {
         for field in fields {
             let span = report.number(field.place);
             edit.changes.push(Spanned::new(field.change.clone(), span));
+        }
+        // Its code may be what could not be read.
+        let is_half_read = !report.is_read(target.target.index) && target.target.sub.is_none();
+        if *action == Action::Add && is_half_read && has_members(statements, target.target.index) {
+            edit.changes
+                .insert(0, Spanned::from(Change::Code(ObjectCode::Record)));
         }
         edits.push(edit);
     }

@@ -3,7 +3,7 @@
 use od_eds::patch::{Change, Raw};
 use od_eds::row::FIELDS;
 use proc_macro2::{Delimiter, Ident, Span, TokenTree};
-use syn::parse::{Parse, ParseStream};
+use syn::parse::{Parse, ParseStream, discouraged::Speculative};
 use syn::{Lit, Token, ext::IdentExt};
 
 use crate::report::{Place, Report};
@@ -103,8 +103,12 @@ fn text(body: ParseStream) -> syn::Result<String> {
 
 /// Limit of bytes: with two more for the length they fit into a slot, whose length has 16 bits.
 fn capacity(body: ParseStream) -> syn::Result<u16> {
-    let wrong = |span| syn::Error::new(span, "expected a number of bytes from 0 to 65533");
-    let literal: syn::LitInt = body.parse().map_err(|_| wrong(body.span()))?;
+    let wrong = |span| {
+        let help = "`capacity = 64`";
+        let message = format!("expected a number of bytes from 0 to 65533\nhelp: {help}");
+        syn::Error::new(span, message)
+    };
+    let literal: syn::LitInt = body.parse().map_err(|e| wrong(e.span()))?;
     let bytes = literal.base10_parse().ok().filter(|bytes| *bytes <= 65533);
     bytes.ok_or_else(|| wrong(literal.span()))
 }
@@ -112,7 +116,12 @@ fn capacity(body: ParseStream) -> syn::Result<u16> {
 fn boolean(body: ParseStream) -> syn::Result<bool> {
     body.parse::<syn::LitBool>()
         .map(|literal| literal.value)
-        .map_err(|e| syn::Error::new(e.span(), "expected `true` or `false`"))
+        .map_err(|e| {
+            syn::Error::new(
+                e.span(),
+                "expected `true` or `false`\nhelp: `mappable = true`",
+            )
+        })
 }
 
 /// A default or a limit, with its last token if it has several.
@@ -128,6 +137,7 @@ fn value(body: ParseStream) -> syn::Result<(Option<Raw>, Option<Span>)> {
             return Err(syn::Error::new(word.span(), VALUE));
         }
         if !body.peek(Token![+]) {
+            calculated(body, "a formula only adds a number: `$NODEID + 0x180`")?;
             return Ok((Some(Raw::NodeId(0)), Some(word.span())));
         }
         body.parse::<Token![+]>()?;
@@ -162,10 +172,12 @@ fn value(body: ParseStream) -> syn::Result<(Option<Raw>, Option<Span>)> {
         Lit::ByteStr(bytes) => Raw::Bytes(bytes.value()),
         other => return Err(syn::Error::new(other.span(), VALUE)),
     };
-    if body.peek(Token![+]) {
-        body.parse::<Token![+]>()?;
-        body.parse::<Option<Token![$]>>()?;
-        let word: Ident = body.parse()?;
+    let ahead = body.fork();
+    if ahead.parse::<Token![+]>().is_ok()
+        && ahead.parse::<Option<Token![$]>>().is_ok()
+        && let Ok(word) = ahead.parse::<Ident>()
+    {
+        body.advance_to(&ahead);
         return match (&literal, word == "NODEID") {
             (Lit::Int(int), true) => {
                 Ok((Some(Raw::NodeId(int.base10_parse()?)), Some(word.span())))
@@ -173,7 +185,19 @@ fn value(body: ParseStream) -> syn::Result<(Option<Raw>, Option<Span>)> {
             _ => Err(syn::Error::new(word.span(), VALUE)),
         };
     }
+    calculated(body, "write the result as a number")?;
     Ok((Some(raw), None))
+}
+
+/// Reports an operator behind a value.
+fn calculated(body: ParseStream, help: &str) -> syn::Result<()> {
+    match body.fork().parse::<TokenTree>() {
+        Ok(TokenTree::Punct(sign)) if "+-*/%<>&|^".contains(sign.as_char()) => {
+            let message = format!("the macro does not calculate\nhelp: {help}");
+            Err(syn::Error::new(sign.span(), message))
+        }
+        _ => Ok(()),
+    }
 }
 
 const VALUE: &str = "expected a value\nhelp: a number, `true`, `\"text\"`, `b\"bytes\"`, `$NODEID + 0x180`, or `none`";

@@ -71,29 +71,54 @@ impl Parse for At {
         // rustc lexes it as one integer literal with the suffix `sub2`.
         let target = literal.to_string().parse::<Target>();
         let target = target.map_err(|refused| syn::Error::new(span, refused))?;
-        if target.sub.is_none() && stream.peek(Token![:]) {
-            return Err(colon(target, stream));
+        match apart(target, stream) {
+            Some(error) => Err(error),
+            None => Ok(Self { target, span }),
         }
-        Ok(Self { target, span })
     }
 }
 
-/// The error about `0x1018:02`, which other programs write.
-fn colon(object: Target, stream: ParseStream) -> syn::Error {
+/// The error about `0x1018:02` and `0x1018 sub2`, and about several objects, which other programs write.
+fn apart(target: Target, stream: ParseStream) -> Option<syn::Error> {
     let at = stream.span();
-    let mut text = format!("{object}sub2");
-    if stream.parse::<Token![:]>().is_ok()
-        && let Ok(sub) = stream.parse::<LitInt>()
-    {
-        let digits = sub.to_string();
-        let digits = digits.trim_start_matches("0x").trim_start_matches('0');
-        text = format!(
-            "{object}sub{}",
-            if digits.is_empty() { "0" } else { digits }
-        );
-    }
-    let help = format!("write `{text}`");
-    syn::Error::new(at, format!("a sub-index is behind `sub`\nhelp: {help}"))
+    let ahead = stream.fork();
+    let next = ahead.parse::<TokenTree>().ok()?;
+    let digits = match &next {
+        TokenTree::Ident(word) => word.to_string().strip_prefix("sub").map(String::from),
+        TokenTree::Punct(sign) if matches!(sign.as_char(), ':' | '/') => {
+            let sub = ahead.parse::<LitInt>();
+            Some(sub.map_or(String::from("2"), |sub| sub.to_string()))
+        }
+        TokenTree::Punct(sign)
+            if matches!(sign.as_char(), '.' | ',' | '-') && !stream.peek(Token![->]) =>
+        {
+            let help = "write a statement for each object";
+            let message = format!("a statement is about one object\nhelp: {help}");
+            return Some(syn::Error::new(at, message));
+        }
+        _ => None,
+    };
+    let is_hex = |digits: &String| {
+        digits
+            .chars()
+            .all(|digit| digit.is_ascii_hexdigit() || digit == 'x')
+    };
+    let digits = digits.filter(|digits| target.sub.is_none() && is_hex(digits))?;
+    let digits = digits.trim_start_matches("0x").trim_start_matches('0');
+    let digits = if digits.is_empty() { "0" } else { digits };
+    let help = format!("write `{target}sub{digits}`");
+    Some(syn::Error::new(
+        at,
+        format!("a sub-index is behind `sub`, as a part of its object\nhelp: {help}"),
+    ))
+}
+
+/// Reads `=` behind a word.
+fn equals(body: ParseStream, word: &Ident, example: &str) -> syn::Result<()> {
+    body.parse::<Token![=]>().map(drop).map_err(|e| {
+        let message = format!("expected `=` behind `{word}`\nhelp: `{example}`");
+        syn::Error::new(e.span(), message)
+    })
 }
 
 impl Input {
@@ -147,10 +172,14 @@ impl Input {
             variants: Vec::new(),
         };
         let body;
+        braces(stream, || {
+            format!("`mod {} {{ eds = \"my_device.eds\"; }}`", input.name)
+        })?;
         braced!(body in stream);
         while !body.is_empty() {
+            let start = body.fork();
             let result = input.item(&body, report);
-            recover(&body, result, report);
+            recover(&body, &start, result, report);
         }
         Ok(input)
     }
@@ -165,7 +194,7 @@ impl Input {
         match word.as_str() {
             "eds" => {
                 let key = Ident::parse_any(body)?;
-                body.parse::<Token![=]>()?;
+                equals(body, &key, "eds = \"my_device.eds\";")?;
                 let path: LitStr = body.parse().map_err(|e| {
                     syn::Error::new(e.span(), "expected the path of an EDS file\nhelp: `eds = \"my_device.eds\";`, relative to this source file")
                 })?;
@@ -179,7 +208,7 @@ impl Input {
             }
             "crate" => {
                 let key = Ident::parse_any(body)?;
-                body.parse::<Token![=]>()?;
+                equals(body, &key, "crate = ::my_crate::odkit;")?;
                 let path = Path::parse_mod_style(body).map_err(|e| {
                     syn::Error::new(
                         e.span(),
@@ -194,7 +223,7 @@ impl Input {
             }
             "profile" => {
                 let key = Ident::parse_any(body)?;
-                body.parse::<Token![=]>()?;
+                equals(body, &key, "profile = cia406;")?;
                 let profile: Ident = body.parse().map_err(|e| {
                     syn::Error::new(e.span(), "expected a profile\nhelp: `profile = cia406;`")
                 })?;
@@ -206,7 +235,7 @@ impl Input {
             }
             "warnings" => {
                 let key = Ident::parse_any(body)?;
-                body.parse::<Token![=]>()?;
+                equals(body, &key, "warnings = off;")?;
                 let word = Ident::parse_any(body)
                     .ok()
                     .filter(|word| word == "off")
@@ -226,7 +255,7 @@ impl Input {
             }
             "behaves" => {
                 let key = Ident::parse_any(body)?;
-                body.parse::<Token![=]>()?;
+                equals(body, &key, "behaves = PROFILE;")?;
                 if self.services.has_profile() {
                     report.at(key.span(), "`behaves` is given twice");
                 }
@@ -235,7 +264,7 @@ impl Input {
             }
             "errors" => {
                 let key = Ident::parse_any(body)?;
-                body.parse::<Token![=]>()?;
+                equals(body, &key, "errors = 4;")?;
                 self.services.errors(body, key.span(), report)?;
                 semicolon(body, key.span(), report)?;
             }
@@ -243,15 +272,28 @@ impl Input {
                 Ident::parse_any(body)?;
                 let name: Ident = body.parse()?;
                 let inner;
+                braces(body, || {
+                    format!(
+                        "a variant says what differs: `variant {name} {{ modify 0x6004 {{ default = 0 }} }}`"
+                    )
+                })?;
                 braced!(inner in body);
                 let mut statements = Vec::new();
                 while !inner.is_empty() {
                     refuse(&inner.call(Attribute::parse_outer)?, report);
+                    let start = inner.fork();
                     let result = statement(&inner, IN_VARIANT, report);
-                    statements.extend(recover(&inner, result, report));
+                    statements.extend(recover(&inner, &start, result, report));
                 }
+                let help = "choose another name for the variant";
                 if self.variants.iter().any(|variant| variant.name == name) {
-                    report.at(name.span(), format!("there are two variants `{name}`"));
+                    let message = format!("there are two variants `{name}`\nhelp: {help}");
+                    report.at(name.span(), message);
+                    return Ok(());
+                }
+                if OWN.contains(&&*name.to_string()) {
+                    let message = format!("`{name}` is what the module itself has\nhelp: {help}");
+                    report.at(name.span(), message);
                     return Ok(());
                 }
                 self.variants.push(Variant {
@@ -264,6 +306,17 @@ impl Input {
         }
         Ok(())
     }
+}
+
+/// Types of the module that the macro makes, whose names no variant can have.
+const OWN: [&str; 4] = ["Device", "Node", "Rooms", "Values"];
+
+/// Reports that a brace does not follow.
+fn braces(body: ParseStream, help: impl FnOnce() -> String) -> syn::Result<()> {
+    if body.peek(syn::token::Brace) {
+        return Ok(());
+    }
+    Err(body.error(format!("expected `{{`\nhelp: {}", help())))
 }
 
 /// `+ "variant.overlay"` after the path of an EDS.
@@ -309,13 +362,12 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             });
         }
         "rename" => {
-            let target = body.parse()?;
-            body.parse::<Token![=]>()?;
+            let target: At = body.parse()?;
+            let example = format!("rename {} = POSITION;", target.target);
+            equals(body, &word, &example)?;
             let name: Ident = body.parse().map_err(|e| {
-                syn::Error::new(
-                    e.span(),
-                    "expected the handle's new name\nhelp: `rename 0x6004 = POSITION;`",
-                )
+                let message = format!("expected the handle's new name\nhelp: `{example}`");
+                syn::Error::new(e.span(), message)
             })?;
             semicolon(body, name.span(), report)?;
             return Ok(Statement::Rename { target, name });
@@ -357,7 +409,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
     let before = report.error_count();
     let fields = fields::read(&inner, report);
     if report.error_count() > before {
-        report.half_read(target.target.index);
+        report.half_read(target.target.address());
     }
     // A semicolon after the brace is harmless and easily typed.
     let _ = body.parse::<Option<Token![;]>>()?;
@@ -398,14 +450,19 @@ fn refuse(attrs: &[Attribute], report: &mut Report) {
     }
 }
 
-/// Reports an error and continues at the next place where a statement can begin.
-fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) -> Option<T> {
+/// Reports an error and continues at the next place where a statement can begin. The wrong one began at `start`.
+fn recover<T>(
+    body: ParseStream,
+    start: ParseStream,
+    result: syn::Result<T>,
+    report: &mut Report,
+) -> Option<T> {
     let error = match result {
         Ok(value) => return Some(value),
         Err(error) => error,
     };
     report.push(error);
-    report.lose();
+    doubt(start, report);
     while !body.is_empty() && !starts_statement(body) {
         match body.parse::<TokenTree>() {
             Ok(TokenTree::Punct(p)) if p.as_char() == ';' => break,
@@ -414,6 +471,24 @@ fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) ->
         }
     }
     None
+}
+
+/// Records what the statement that begins here describes, since it cannot be read.
+fn doubt(start: ParseStream, report: &mut Report) {
+    let _ = start.call(Attribute::parse_outer);
+    let word = Ident::parse_any(start);
+    let word = word.map_or(String::new(), |word| word.to_string());
+    let of_no_object = [
+        "profile", "warnings", "without", "behaves", "errors", "crate", "variant",
+    ];
+    if of_no_object.contains(&&*word) {
+        return;
+    }
+    let literal = start.parse::<LitInt>().ok();
+    match literal.and_then(|literal| literal.to_string().parse::<Target>().ok()) {
+        Some(target) => report.half_read(target.address()),
+        None => report.lose(),
+    }
 }
 
 /// Returns whether a statement begins here. The word alone is not enough: `eds` is also the

@@ -249,8 +249,106 @@ mod tests {
             }
         });
         let made = made.to_string();
-        assert_eq!(made.matches("compile_error").count(), 1, "{made}");
+        // The type, and the mandatory objects 1000h, 1001h and 1018h.
+        assert_eq!(made.matches("compile_error").count(), 4, "{made}");
         assert!(made.contains("SPEED") && made.contains("DICTIONARY"));
+    }
+
+    /// A device whose objects depend on each other: PDOs, SYNC, EMCY, SDO, saved values.
+    const WIDE: &str = r#"
+        add 0x1000 { name = "Device type"; type = u32; access = const; default = 0x191 }
+        add 0x1001 { name = "Error register"; type = u8; mappable = true }
+        add 0x1003 { code = array; name = "Error history" }
+        add 0x1003sub0 { name = "Number of errors"; type = u8; access = rw; default = 0 }
+        add 0x1003sub1 { name = "Error"; type = u32 }
+        add 0x1005 { name = "COB-ID SYNC"; type = u32; access = rw; default = 0x80 }
+        add 0x1010 { code = array; name = "Store parameters" }
+        add 0x1010sub1 { name = "Save all"; type = u32; access = rw; default = 1 }
+        add 0x1011 { code = array; name = "Restore parameters" }
+        add 0x1011sub1 { name = "Restore all"; type = u32; access = rw; default = 1 }
+        add 0x1014 { name = "COB-ID EMCY"; type = u32; access = rw; default = $NODEID + 0x80 }
+        add 0x1016 { code = array; name = "Consumers" }
+        add 0x1016sub1 { name = "Consumer"; type = u32; access = rw; default = 0 }
+        add 0x1017 { name = "Producer heartbeat time"; type = u16; access = rw; default = 0 }
+        add 0x1018 { code = record; name = "Identity" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 7 }
+        add 0x1019 { name = "SYNC counter overflow"; type = u8; access = rw; default = 0 }
+        add 0x1200 { code = record; name = "SDO server" }
+        add 0x1200sub1 { name = "Request"; type = u32; default = $NODEID + 0x600 }
+        add 0x1200sub2 { name = "Response"; type = u32; default = $NODEID + 0x580 }
+        add 0x1400 { code = record; name = "RPDO" }
+        add 0x1400sub1 { name = "COB-ID of RPDO"; type = u32; access = rw; default = $NODEID + 0x200 }
+        add 0x1400sub2 { name = "Type of RPDO"; type = u8; access = rw; default = 255 }
+        add 0x1600 { code = record; name = "RPDO mapping" }
+        add 0x1600sub0 { name = "Entries of RPDO"; type = u8; access = rw; default = 1 }
+        add 0x1600sub1 { name = "Entry of RPDO"; type = u32; access = rw; default = 0x62000108 }
+        add 0x1800 { code = record; name = "TPDO" }
+        add 0x1800sub1 { name = "COB-ID of TPDO"; type = u32; access = rw; default = $NODEID + 0x180 }
+        add 0x1800sub2 { name = "Type of TPDO"; type = u8; access = rw; default = 1 }
+        add 0x1800sub3 { name = "Inhibit time"; type = u16; access = rw; default = 0 }
+        add 0x1800sub6 { name = "SYNC start value"; type = u8; access = rw; default = 0 }
+        add 0x1A00 { code = record; name = "TPDO mapping" }
+        add 0x1A00sub0 { name = "Entries of TPDO"; type = u8; access = rw; default = 2 }
+        add 0x1A00sub1 { name = "Entry of TPDO"; type = u32; access = rw; default = 0x60000108 }
+        add 0x1A00sub2 { name = "Second entry of TPDO"; type = u32; access = rw; default = 0x20000020 }
+        add 0x2000 { name = "Position"; type = i32; mappable = true; low = -9; high = 9; default = 1 }
+        add 0x6000 { code = array; name = "Inputs" }
+        add 0x6000sub1 { name = "Inputs 1 to 8"; type = u8; mappable = true; default = 0 }
+        add 0x6200 { code = array; name = "Outputs" }
+        add 0x6200sub1 { name = "Outputs 1 to 8"; type = u8; access = rww; mappable = true; default = 0 }"#;
+
+    /// Errors of a call with these statements.
+    fn errors(statements: &str) -> Vec<String> {
+        let text = format!(
+            "mod device {{ profile = cia401; {statements} \
+             rename 0x2000 = TURN; rename 0x1018sub1 = MAKER; \
+             variant small {{ remove 0x1A00sub2; modify 0x1800sub2 {{ default = 255 }} }} }}"
+        );
+        let made = expand(text.parse().unwrap()).to_string();
+        let (_, errors) =
+            made.split_at(made.find(":: core :: compile_error").unwrap_or(made.len()));
+        let mut errors: Vec<String> = errors
+            .split(":: core :: compile_error")
+            .map(String::from)
+            .collect();
+        errors.remove(0);
+        errors
+    }
+
+    /// A statement that cannot be read has no second error by what other statements say about its object, and it
+    /// does not hide the mistakes of others.
+    #[test]
+    fn one_mistake_is_one_error() {
+        assert_eq!(errors(WIDE), [""; 0]);
+        let rows: Vec<&str> = WIDE.lines().skip(1).collect();
+        let other = "
+            add 0x5000 { name = \"Other\"; type = u16; access = rw; default = 70000 }
+            modify 0x1999 { default = 1 }
+            rename 0x5000 = other;";
+        for (at, row) in rows.iter().enumerate() {
+            let wrong = [
+                row.replacen("add", "plus", 1),
+                row.replacen("name =", "title =", 1),
+                row.replacen("type =", "kind =", 1),
+                row.replacen("code =", "shape =", 1),
+                row.replacen("access =", "rights =", 1),
+                row.replacen("default =", "default", 1),
+                row.replacen("mappable = true", "mappable = yes", 1),
+                row.replacen(" {", " = {", 1),
+                row.replacen("type = u", "type = v", 1),
+                row.replacen("access = rw", "access = const; default = \"text\"", 1),
+            ];
+            // A third of them, since each takes milliseconds.
+            for (kind, wrong) in wrong.iter().enumerate() {
+                if wrong == row || (at + kind) % 3 != 0 {
+                    continue;
+                }
+                let mut rows = rows.clone();
+                rows[at] = wrong;
+                let told = errors(&format!("{}{other}", rows.join("\n")));
+                assert_eq!(told.len(), 4, "{wrong}: {told:#?}");
+            }
+        }
     }
 
     /// Any input gives errors, never a panic.

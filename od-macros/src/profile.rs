@@ -11,12 +11,13 @@ pub(crate) fn check(profile: &Ident, description: &Description, report: &mut Rep
     let text = profile.to_string();
     let number = text.strip_prefix("cia").and_then(|n| n.parse::<u16>().ok());
     let Some(number) = number else {
-        report.at(
-            profile.span(),
-            format!(
-                "`{profile}` is not a profile\nhelp: `cia` and its number, for example `cia406`"
-            ),
-        );
+        let digits = text.trim_start_matches(|c: char| !c.is_ascii_digit());
+        let help = match digits.parse::<u16>() {
+            Ok(number) => format!("did you mean `cia{number}`?"),
+            Err(_) => "`cia` and its number, for example `cia406`".into(),
+        };
+        let message = format!("`{profile}` is not a profile\nhelp: {help}");
+        report.at(profile.span(), message);
         return;
     };
     let entry = description.entry(Address::new(0x1000, 0));

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use od_eds::{Finding, token_of};
+use od_model::Address;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, TokenStreamExt, quote};
 
@@ -12,9 +13,9 @@ pub(crate) struct Report {
     errors: Vec<syn::Error>,
     warnings: Vec<Warning>,
     tokens: Vec<Place>,
-    /// Objects with a statement that could not be read completely.
-    half_read: BTreeSet<u16>,
-    /// Whether a statement, or the file, could not be read at all.
+    /// Addresses of statements that could not be read completely.
+    half_read: BTreeSet<Address>,
+    /// Whether the file could not be read, or a statement of which nobody knows the object.
     has_lost: bool,
 }
 
@@ -82,24 +83,24 @@ impl Report {
         });
     }
 
-    /// Records that a statement about this object could not be read completely.
-    pub(crate) fn half_read(&mut self, index: u16) {
-        self.half_read.insert(index);
+    /// Records that a statement about this address could not be read completely.
+    pub(crate) fn half_read(&mut self, address: Address) {
+        self.half_read.insert(address);
     }
 
-    /// Records that a statement or the file could not be read at all.
+    /// Records that the file could not be read, or a statement of which nobody knows the object.
     pub(crate) fn lose(&mut self) {
         self.has_lost = true;
     }
 
-    /// Returns whether a statement, or the file, could not be read at all.
+    /// Returns whether the file could not be read, or a statement of which nobody knows the object.
     pub(crate) const fn has_lost(&self) -> bool {
         self.has_lost
     }
 
-    /// Returns whether all of the call could be read.
-    pub(crate) fn is_whole(&self) -> bool {
-        !self.has_lost && self.half_read.is_empty()
+    /// Addresses of statements that could not be read completely.
+    pub(crate) const fn half_read_ones(&self) -> &BTreeSet<Address> {
+        &self.half_read
     }
 
     /// Drops the warnings: `warnings = off;`.
@@ -109,7 +110,7 @@ impl Report {
 
     /// Returns whether every statement about this object could be read.
     pub(crate) fn is_read(&self, index: u16) -> bool {
-        !self.half_read.contains(&index)
+        !self.half_read.iter().any(|address| address.index == index)
     }
 
     /// Number of errors so far.
@@ -140,14 +141,11 @@ impl Report {
         self.tokens.get(token_of(span)? as usize).copied()
     }
 
-    /// `compile_error!` for each error; without errors, the warnings.
+    /// `compile_error!` for each error, and the warnings.
     pub(crate) fn into_tokens(self) -> TokenStream {
-        if self.errors.is_empty() {
-            return self.warnings.iter().map(Warning::tokens).collect();
-        }
-        self.errors
-            .iter()
-            .map(syn::Error::to_compile_error)
+        let errors = self.errors.iter().map(syn::Error::to_compile_error);
+        errors
+            .chain(self.warnings.iter().map(Warning::tokens))
             .collect()
     }
 }

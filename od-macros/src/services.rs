@@ -5,9 +5,10 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 use od_model::Dictionary;
-use proc_macro2::{Ident, Span};
-use quote::ToTokens;
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{quote, quote_spanned};
 use syn::parse::ParseStream;
+use syn::spanned::Spanned;
 use syn::{LitInt, Path, Token};
 
 use crate::report::Report;
@@ -185,18 +186,23 @@ impl Services {
     }
 
     /// The function of `Device` that returns the profile, if there is one, for a module `depth` levels below
-    /// the call.
-    pub(crate) fn profile(&self, root: &str, depth: usize) -> String {
+    /// the call. Its tokens have the places of those in the call, so that the compiler reports a wrong path there.
+    pub(crate) fn profile(&self, depth: usize) -> TokenStream {
         let Some(path) = &self.profile else {
-            return String::new();
+            return TokenStream::new();
         };
         let first = path
             .segments
             .first()
             .map(|segment| segment.ident.to_string());
         let is_absolute = path.leading_colon.is_some() || first.as_deref() == Some("crate");
-        let up = "super::".repeat(if is_absolute { 0 } else { depth });
-        let path = path.to_token_stream();
-        format!("#[inline]\nfn profile(&self) -> &{root}::Profile {{ &{up}{path} }}\n")
+        let place = path.span();
+        let up = std::iter::repeat_n(quote_spanned!(place=> super::), depth);
+        let up = up.filter(|_| !is_absolute);
+        let profile = quote_spanned!(place=> &#(#up)*#path);
+        quote! {
+            #[inline]
+            fn profile(&self) -> &Profile { #profile }
+        }
     }
 }

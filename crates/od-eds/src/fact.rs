@@ -134,6 +134,16 @@ impl Fact {
             _ => None,
         }
     }
+
+    /// Returns whether it, or one of several facts in it, is about an object of these.
+    pub(crate) fn is_about(&self, objects: &dyn Fn(u16) -> bool) -> bool {
+        match self {
+            Self::List(facts) | Self::OneOf(facts) => {
+                facts.iter().any(|fact| fact.is_about(objects))
+            }
+            fact => fact.index().is_some_and(objects),
+        }
+    }
 }
 
 macro_rules! facts {

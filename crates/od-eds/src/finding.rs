@@ -1,5 +1,6 @@
 //! Rules and findings as plain data; `say` makes sentences of them.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -308,6 +309,23 @@ impl Finding {
     /// Returns whether it is an error with which no working device can be built.
     pub fn is_unsound(&self) -> bool {
         self.is_error() && !self.rule.buildable
+    }
+
+    /// Returns whether it may be a consequence of errors in what describes the values at these addresses: it depends
+    /// on one of them, or on the whole device.
+    pub fn may_follow(&self, broken: &BTreeSet<Address>) -> bool {
+        if broken.is_empty() {
+            return false;
+        }
+        match self.object {
+            None => true,
+            Some(own) if self.rule.is_of_one_value() => broken.contains(&own),
+            Some(own) => {
+                let is_broken = |index| broken.iter().any(|address| address.index == index);
+                let mut facts = self.facts.iter();
+                is_broken(own.index) || facts.any(|(_, fact)| fact.is_about(&is_broken))
+            }
+        }
     }
 
     /// Place of the finding; `None` if something is missing.

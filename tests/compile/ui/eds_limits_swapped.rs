@@ -4,6 +4,7 @@ use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {
+        warnings = off;
         eds = "eds/limits_swapped.eds";
     }
 }

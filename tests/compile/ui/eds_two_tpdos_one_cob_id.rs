@@ -3,6 +3,7 @@ use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {
+        warnings = off;
         eds = "eds/cob_ids.eds";
     }
 }

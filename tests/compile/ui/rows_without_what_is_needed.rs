@@ -3,6 +3,7 @@ use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {
+        warnings = off;
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8; mappable = true }
         add 0x1017 { name = "Producer heartbeat time"; type = u16; access = rw; default = 0 }

@@ -127,6 +127,7 @@ fn faults_of_edits() -> Vec<Finding> {
         Edit::modify(member(0x1000, 1)),
         Edit::add(member(0x1000, 1)),
         Edit::add(object(0x2001)),
+        Edit::modify(object(0x3001)),
         Edit::modify(object(0x1000)).default(Raw::Text("a".into())),
         Edit::add(object(0x2002))
             .name("a")

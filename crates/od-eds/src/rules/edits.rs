@@ -31,13 +31,18 @@ pub(crate) static E0701: Rule = Rule {
     example: "modify 0x2000 { default = 7 }      // the EDS has no 2000h",
     says: "{object} does not exist",
     help: "list the objects of a file with `odkit dump`",
-    also: &[E0701_NEAR, E0701_FIRST, E0701_MEMBERS],
+    also: &[E0701_NEAR, E0701_NEAR_NAMELESS, E0701_FIRST, E0701_MEMBERS],
     ..Rule::of("E0701")
 };
 
 /// Sentence for an object whose index differs in one digit.
 const E0701_NEAR: Form = Form {
     help: "write `{meant}` (\"{name}\")",
+    ..Form::OWN
+};
+/// The same, if the similar object has no name.
+const E0701_NEAR_NAMELESS: Form = Form {
+    help: "write `{meant}`",
     ..Form::OWN
 };
 /// Sentence for a target with no similar object.
@@ -58,8 +63,13 @@ pub(crate) fn e0701_object_missing(target: &Spanned<Target>) -> Finding {
 
 /// The same, with the object that the name probably means.
 pub(crate) fn e0701_near(target: &Spanned<Target>, meant: Target, name: &str) -> Finding {
-    let finding = e0701_object_missing(target).form(&E0701_NEAR);
-    finding.fact("meant", meant.to_string()).fact("name", name)
+    let finding = e0701_object_missing(target).fact("meant", meant.to_string());
+    // An `add` without a name has its target instead.
+    if name == Target::object(meant.index).to_string() {
+        finding.form(&E0701_NEAR_NAMELESS)
+    } else {
+        finding.form(&E0701_NEAR).fact("name", name)
+    }
 }
 
 /// The same, in a description without objects.

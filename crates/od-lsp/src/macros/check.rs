@@ -1,6 +1,6 @@
 //! Findings about a call of the macro: errors of the file, and of the statements.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use od_eds::check::check;
@@ -128,10 +128,17 @@ fn patched(
     let first = places.len();
     let own = call.statements.iter().filter(|own| own.variant == variant);
     let own: Vec<&Statement> = own.collect();
-    let edits: Vec<Edit> = own
-        .iter()
-        .filter_map(|own| edit(file.str(), own, places))
-        .collect();
+    let mut edits: Vec<Edit> = Vec::new();
+    let mut broken = BTreeSet::new();
+    for statement in &own {
+        match (edit(file.str(), statement, places), &statement.target) {
+            (Some(edit), _) => edits.push(edit),
+            (None, Some((target, _))) if statement.action.is_some() => {
+                broken.insert(target.address());
+            }
+            (None, _) => {}
+        }
+    }
     let mut faults = patch::apply(description, &edits);
     for statement in own.iter().filter(|own| own.action.is_none()) {
         if let Some((target, bytes)) = &statement.target {
@@ -141,12 +148,10 @@ fn patched(
     }
     let checked = check(description);
     let index = |finding: &Finding| finding.object.map(|address| address.index);
-    // All other findings may be consequences of an error.
+    broken.extend(faults.iter().filter_map(|fault| fault.object));
     let is_own = |finding: &&Finding| {
-        let of_one = finding.rule.is_of_one_value()
-            && !faults.iter().any(|fault| index(fault) == index(finding));
         finding.severity() >= Severity::Warning
-            && (faults.is_empty() || finding.is_unsound() || of_one)
+            && !finding.may_follow(&broken)
             && !before.contains(finding)
     };
     // The last edit of the object, for a finding that has no place or one in the file. No statement

@@ -1,0 +1,21 @@
+//! Settings without their sign, a variant with an overlay, and a setting with a number.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
+        add 0x1001 { name = "Error register"; type = u8; mappable = true }
+        add 0x1017 { name = "Producer heartbeat time"; type = u16; access = rw; default = 0 }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+        eds: "eds/sound.eds";
+        errors 4;
+        profile = CiA301;
+        add 0x2000 { name = "Log"; type = str; capacity = "64" }
+        rename 0x1017 -> HEARTBEAT;
+        variant fast = "eds/fast.overlay";
+    }
+}
+
+fn main() {}
