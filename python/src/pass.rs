@@ -127,8 +127,7 @@ impl<'w> Pass<'w> {
                 let next = [state.next(), wait.until].into_iter().flatten().min();
                 let left = next.map(|next| next.micros_since(state.now()));
                 drop(state);
-                let most = NAP * 25;
-                sleep(py, left.map_or(most, Duration::from_micros).min(most))?;
+                sleep(py, left.map_or(LOOK, Duration::from_micros).min(LOOK))?;
                 continue;
             }
             drop(state);

@@ -40,7 +40,7 @@ pub(crate) fn is_list(devices: &str) -> bool {
 /// Adds the devices of a list to a bus, and their names to `names`. They have no power yet.
 ///
 /// # Errors
-/// A device that does not exist, a file that cannot be read, a node ID that is not valid.
+/// A list without a device, a device that does not exist, a file that cannot be read, a node ID that is not valid.
 /// Returns the first place of each, and its line in a script.
 pub(crate) fn add(
     bus: &mut Bus,
@@ -80,6 +80,12 @@ pub(crate) fn add(
                 added.push((place, line(name, bus, place)));
             }
         }
+    }
+    if added.is_empty() {
+        let why = format!(
+            "`{list}` names no device; write such as `gxmm@1`, or `Bench()` for a bus without devices"
+        );
+        return Err(Fault::value(why));
     }
     Ok(added)
 }

@@ -61,6 +61,9 @@ def test_what_is_wrong_with_a_file(tmp_path):
     wrong.write_text("[2000]\nParameterName=a\nDataType=5\nAccessType=rw\nDefaultValue=300\n")
     with pytest.raises(ValueError, match=r"wrong.eds: line 5: E0412 DefaultValue `300`"):
         odkit.Bench(wrong)
+    for nothing in ("", " , ", ["gxmm@1", ""]):
+        with pytest.raises(ValueError, match="names no device; write such as `gxmm@1`"):
+            odkit.Bench(nothing)
     with pytest.raises(ValueError, match="no built-in device or file is named `none.eds`"):
         odkit.Bench("none.eds")
     with pytest.raises(OSError):
