@@ -67,7 +67,7 @@ pub(super) fn serial(path: &str, baud: u32) -> Result<SerialPort, Error> {
                 "{path} cannot be opened (permission denied); on Debian and Ubuntu join the group \
                  dialout with `sudo usermod -aG dialout $USER`, then log in again"
             ),
-            _ => format!("{path} at {baud} bit/s: {error}"),
+            _ => format!("{path} cannot be opened as a serial port with {baud} bit/s: {error}"),
         })
     };
     SerialPort::open(path, baud).map_err(failed)
