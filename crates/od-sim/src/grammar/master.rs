@@ -40,6 +40,7 @@ impl MasterLine {
             "sync" => Order::Sync(time(tokens, SHORTEST_SYNC)?),
             "boot" if tokens.is_empty() => Order::Boot(None),
             "boot" => Order::Boot(Some(node(tokens)?)),
+            "started" => Order::Adopt(node(tokens)?),
             "clear" if tokens.is_empty() => Order::Clear(None),
             "clear" => Order::Clear(Some(node(tokens)?)),
             word => return Err(here.wrong(format!("a master cannot `{word}`"))),

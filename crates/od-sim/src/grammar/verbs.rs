@@ -51,7 +51,7 @@ pub(super) const VERBS: [Verb; 23] = [
                    length 100 (m), sample-point 87.5 (%), sjw 1, clock 0.5 (%), short, short off or restart" },
     Verb { name: "master", parse: |tokens| Ok(Action::Deed(Deed::Master(MasterLine::parse(tokens)?))),
            usage: "`master slave 5`, `master expect 5 1018h:02 = 10`, `master write 5 1017h = 100`, \
-                   `master heartbeat 5 300ms`, `master sync 100ms`, `master boot` or `master clear`" },
+                   `master heartbeat 5 300ms`, `master sync 100ms`, `master boot`, `master started 5` or `master clear`" },
     Verb { name: "send", parse: send, usage: "`send 080# 3 times every 10ms`" },
     Verb { name: "nmt", parse: nmt, usage: "`nmt start`, `nmt start 5` or `nmt start all`" },
     Verb { name: "sync", parse: sync, usage: "`sync 15 times every 10ms` or `sync counter 3`" },

@@ -128,9 +128,11 @@ impl Journal {
         Some(inputs.into_iter().map(entry).collect())
     }
 
-    /// The list of the master and the physics of the line, as lines of a script; `None` if both are those of an empty bench.
+    /// The list of the master with the nodes that it has started, and the physics of the line, as lines of a script; `None` if both are those of an empty bench.
     #[cfg(feature = "training")]
     fn training(&self) -> Option<Input> {
+        use crate::master::{Boot, Standing};
+
         let bus = &self.rig.bus;
         let devices = bus.devices().len();
         if devices == 0 {
@@ -156,10 +158,13 @@ impl Journal {
             lines.push(std::format!("use {station}"));
             lines.push(std::format!("line clock {percent}"));
         }
-        let plan = bus
-            .master()
-            .map_or(Vec::new(), |master| master.plan().lines());
-        lines.extend(plan.iter().map(|line| std::format!("master {line}")));
+        if let Some(master) = bus.master() {
+            let plan = master.plan().lines();
+            lines.extend(plan.iter().map(|line| std::format!("master {line}")));
+            let is_started = |one: &&Boot| one.standing == Standing::Started;
+            let started = master.boots().iter().filter(is_started);
+            lines.extend(started.map(|one| std::format!("master started {}", one.node)));
+        }
         let text = lines.join("\n");
         (!lines.is_empty()).then_some(Input::Script { text })
     }

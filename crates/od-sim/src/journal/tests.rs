@@ -372,6 +372,33 @@ fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the
     );
 }
 
+/// The nodes run, so the master must not boot them again, but watch them, and produce SYNC.
+#[cfg(all(feature = "lessons", feature = "training"))]
+#[test]
+fn a_bench_without_its_history_has_the_nodes_that_its_master_has_started() {
+    use crate::master::Standing;
+
+    let text = "master slave 5\nmaster write 5 1017h = 100\nmaster heartbeat 5 250ms\nmaster slave 6\nmaster expect 6 1018h:02 = 99\nmaster boot";
+    let script = Input::Script { text: text.into() };
+    let mut first = bench(vec![add("gxmm", 5), add("gxmm", 6), script]);
+    first.advance(2_000_000, usize::MAX);
+    let standing = |journal: &Journal, node: u8| {
+        let node = od_runtime::NodeId::new(node).expect("1 to 127");
+        let boot = journal.rig.bus.master().and_then(|it| it.boot(node));
+        boot.map(|boot| boot.standing)
+    };
+    assert_eq!(standing(&first, 5), Some(Standing::Started));
+    let mut second = Journal::new(DEVICES);
+    second.restore(first.still().expect("devices in order"), true);
+    second.advance(1_000_000, usize::MAX);
+    assert!(second.refused().is_empty());
+    assert_eq!(standing(&second, 5), Some(Standing::Started));
+    assert_eq!(standing(&second, 6), None, "it waits for the next boot");
+    second.act(Input::Power { node: 0, on: false });
+    second.advance(2_000_000, usize::MAX);
+    assert_eq!(standing(&second, 5), Some(Standing::Lost));
+}
+
 #[test]
 fn the_bus_has_room_for_16_devices_in_a_repeated_run_too() {
     let mut journal = bench((0..20).map(|_| add("gxmm", 5)).collect());

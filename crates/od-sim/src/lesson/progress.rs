@@ -360,11 +360,35 @@ impl Now {
             (Self::Count(count, times), _) => format!("{count} of {times} so far"),
             (Self::WithoutPower, "de") => "das Gerät hat keine Versorgung".into(),
             (Self::WithoutPower, _) => "the device has no power".into(),
-            (Self::Is(now), "de") => format!("jetzt {now}"),
+            (Self::Is(now), "de") => format!("jetzt {}", german(&now)),
             (Self::Is(now), _) => format!("it is {now}"),
             (Self::Other(why), _) => why,
         }
     }
+}
+
+/// A state of a condition in German; numbers and terms of CiA and ISO stay.
+fn german(now: &str) -> String {
+    let words = match now {
+        "on" => "an",
+        "off" => "aus",
+        "flashing" => "blinkend",
+        "active" => "aktiv",
+        "not active" => "nicht aktiv",
+        "not booted yet" => "noch nicht gebootet",
+        "being booted" => "beim Booten",
+        "started" => "gestartet",
+        "lost" => "verloren",
+        "not known: read the object" => "nicht bekannt: lies das Objekt",
+        now => {
+            return now.replacen("failed", "aufgegeben", 1).replacen(
+                "error status",
+                "Fehlerstatus",
+                1,
+            );
+        }
+    };
+    words.into()
 }
 
 /// Returns whether it holds, and its present state.

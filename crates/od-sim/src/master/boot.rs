@@ -86,6 +86,20 @@ impl Boot {
         self.deadline = Some(now.plus_micros(plan.boot_time));
     }
 
+    /// Ends the process as if all its stages had been passed now.
+    pub(super) fn adopt(&mut self, plan: &Plan, client: &mut Client, now: Instant) {
+        self.restart(client, now);
+        self.began.clear();
+        for stage in Stage::ALL {
+            self.enter(stage, now);
+        }
+        self.standing = Standing::Started;
+        let time = plan.slave(self.node).map_or(0, |slave| slave.heartbeat);
+        if time > 0 {
+            client.watch(self.node, Duration::from_micros(time));
+        }
+    }
+
     /// Time of the next deadline of this process.
     pub(super) fn deadline(&self) -> Option<Instant> {
         self.deadline

@@ -96,28 +96,33 @@ impl Master {
                     self.begin(now, node);
                 }
             }
+            Order::Adopt(node) => self.adopt(now, *node),
             _ => self.plan.add(order),
         }
-        if matches!(order, Order::Sync(_) | Order::Boot(_)) {
+        if matches!(order, Order::Sync(_) | Order::Boot(_) | Order::Adopt(_)) {
             self.sync = self.period().map(|period| now.plus_micros(period));
         }
         Ok(())
     }
 
     fn begin(&mut self, now: Instant, node: NodeId) {
+        let at = self.place(node);
+        self.boots[at].begin(&self.plan, &mut self.client, now);
+    }
+
+    fn adopt(&mut self, now: Instant, node: NodeId) {
+        let at = self.place(node);
+        self.boots[at].adopt(&self.plan, &mut self.client, now);
+    }
+
+    /// The number of the process of a node, which is new if the node has none. The master works from now on.
+    fn place(&mut self, node: NodeId) -> usize {
         self.is_on = true;
-        let Self {
-            plan,
-            boots,
-            client,
-            ..
-        } = self;
-        let at = boots.iter().position(|boot| boot.node == node);
-        let at = at.unwrap_or_else(|| {
-            boots.push(Boot::new(node));
-            boots.len() - 1
-        });
-        boots[at].begin(plan, client, now);
+        let at = self.boots.iter().position(|boot| boot.node == node);
+        at.unwrap_or_else(|| {
+            self.boots.push(Boot::new(node));
+            self.boots.len() - 1
+        })
     }
 
     /// Handles a frame that the master hears.

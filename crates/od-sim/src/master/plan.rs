@@ -39,6 +39,8 @@ pub enum Order {
     Sync(u64),
     /// Boots a node, or all nodes of the network list.
     Boot(Option<NodeId>),
+    /// Takes over a node that was started before: it is not booted again until it starts again or is lost.
+    Adopt(NodeId),
     /// Forgets what the list says of a node; `None`: the whole list, and ends all work.
     Clear(Option<NodeId>),
 }
@@ -129,7 +131,7 @@ impl Plan {
             Order::BootTime(micros) => self.boot_time = *micros,
             Order::Sync(micros) => self.sync = *micros,
             Order::Clear(Some(node)) => self.slaves.retain(|slave| slave.node != *node),
-            Order::Boot(_) | Order::Clear(None) => {}
+            Order::Boot(_) | Order::Adopt(_) | Order::Clear(None) => {}
         }
     }
 

@@ -88,8 +88,8 @@ class FinalTest extends View {
     const t = D.lessons.test;
     return html`<section class="wrong-answers"><h3>${t.wrong}</h3><ol>${asked.map((one, i) => this.given[i]!.isRight
       ? nothing
-      : html`<li class="prose"><div>${markdown(one.question)}</div><span>${t.yours(this.given[i]!.text)}</span>
-          <span>${t.right} <code>${spaced(one.answer)}</code></span><div>${markdown(one.reveal)}</div>
+      : html`<li class="prose"><div>${markdown(one.question)}</div><div>${t.yours(this.given[i]!.text)}</div>
+          <div>${t.right} <code>${spaced(one.answer)}</code></div><div>${markdown(one.reveal)}</div>
           <button class="small" @click=${() => void openNamed(one.lesson)}>${one.title}</button></li>`)}</ol></section>`;
   }
 

@@ -80,10 +80,13 @@ class LessonPanel extends View {
     });
     // A step that is done while another panel covers the lesson.
     let before = Infinity;
+    let told: typeof state.toast.value = null;
     this.unwatch = effect(() => {
       const { step = Infinity } = state.lessonState.value ?? {};
+      if (state.tab.value === 'lesson' && told && state.toast.peek() === told) state.toast.value = null;
       if (step === before + 1 && !state.lessonOpening.peek() && !this.checkVisibility()) {
-        state.toast.value = { text: D.lessons.stepDone(step), tone: 'info', action: { text: D.lessons.happened, run: () => (state.tab.value = 'lesson') } };
+        told = { text: D.lessons.stepDone(step), tone: 'info', action: { text: D.lessons.happened, run: () => (state.tab.value = 'lesson') } };
+        state.toast.value = told;
       }
       before = step;
     });

@@ -195,6 +195,33 @@ fn missing_conditions_are_described_in_words() {
 }
 
 #[test]
+fn a_lesson_in_german_says_in_german_how_a_condition_stands() {
+    let (mut bench, mut progress) = begin(
+        "led green on -- A\nled red on -- B\nled green off -- C\nbroken position-error -- D\nmaster 5 started -- E\n\
+         state stopped -- F\nvalue 1017h = 100 -- G",
+    );
+    progress.lesson.language = "de".into();
+    let all = progress.requirements(&mut bench.bus);
+    let said: Vec<_> = all.iter().map(|one| one.text.as_str()).collect();
+    assert_eq!(
+        said,
+        [
+            "A (jetzt blinkend)",
+            "B (jetzt aus)",
+            "C (jetzt blinkend)",
+            "D (jetzt nicht aktiv)",
+            "E (jetzt noch nicht gebootet)",
+            "F (jetzt Pre-operational)",
+            "G (jetzt 0)",
+        ]
+    );
+    assert_eq!(
+        german("failed, error status D"),
+        "aufgegeben, Fehlerstatus D"
+    );
+}
+
+#[test]
 fn a_condition_that_no_longer_holds_is_lost() {
     let (mut bench, mut progress) = begin("came abort\nvalue 6001h = 8192");
     let lost = |bench: &mut Bench, progress: &mut Progress| {
