@@ -79,7 +79,6 @@ fn read(
     description
 }
 
-/// Checks the description.
 fn checked(description: Description, mut log: Log, text: &str) -> Parsed {
     run(&description, &mut log);
     let mut findings = log.finish();

@@ -60,7 +60,6 @@ pub const CODES: [(&str, ObjectCode); 4] = [
     ("domain", ObjectCode::Domain),
 ];
 
-/// The word for a value, if it has one.
 fn word<T: Copy + PartialEq>(words: &[(&'static str, T)], value: T) -> Option<&'static str> {
     let mut all = words.iter();
     all.find(|(_, known)| *known == value)

@@ -52,7 +52,6 @@ impl Entry<'_> {
     }
 }
 
-/// One object.
 pub(crate) struct Object<'a> {
     pub(crate) description: &'a Description,
     pub(crate) index: u16,

@@ -167,7 +167,6 @@ fn wrong(address: Address, bytes: Vec<u8>, found: Result<Vec<u8>, u32>) -> Wrong
     Wrong { setting, found }
 }
 
-/// Values by address.
 #[derive(Default)]
 struct Values(BTreeMap<Address, Vec<u8>>);
 

@@ -261,7 +261,6 @@ fn has_sub(text: &str) -> bool {
     text.contains(':') || text.contains("sub")
 }
 
-/// Returns whether a text is a glob.
 fn is_glob(text: &str) -> bool {
     text.contains(['*', '?'])
 }

@@ -120,7 +120,6 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     out
 }
 
-/// Place of an edit in the text.
 fn place(edit: &Edit, text: &str) -> Option<TextEdit> {
     let (start, end) = (edit.span.start as usize, edit.span.end as usize);
     let (before, _, behind) = (text.get(..start)?, text.get(start..end)?, text.get(end..)?);

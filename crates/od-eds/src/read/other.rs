@@ -114,7 +114,6 @@ fn check_value(known: &SectionForm, key: &str, value: &Text<'_>, form: Form, log
     }
 }
 
-/// Returns whether a value has this form.
 fn fits(value: &str, form: Form) -> bool {
     let text = number::before_comment(value);
     let mut notes = Vec::new();

@@ -33,7 +33,6 @@ pub(crate) static W0802: Rule = Rule {
     ..Rule::of("W0802")
 };
 
-/// The finding about codes without a reason.
 pub(crate) fn w0802_allow_without_reason(codes: &str, span: Span) -> Finding {
     W0802.at(span).fact("codes", codes)
 }
@@ -48,7 +47,6 @@ pub(crate) static I0803: Rule = Rule {
     ..Rule::of("I0803")
 };
 
-/// The finding about a code that allows nothing.
 pub(crate) fn i0803_allow_without_finding(code: &'static str, span: Span) -> Finding {
     let fix = Fix::unsafe_fix().remove_line(span);
     I0803.at(span).fact("code", code).fix(fix)

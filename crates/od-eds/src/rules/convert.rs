@@ -33,7 +33,6 @@ pub(crate) static W1101: Rule = Rule {
     ..Rule::of("W1101")
 };
 
-/// The finding about a value without a length.
 pub(crate) fn w1101_no_storage(address: Address, section: Span, data_type: DataType) -> Finding {
     W1101.at(section).about(address).fact("type", data_type)
 }
@@ -63,7 +62,6 @@ pub(crate) static W1103: Rule = Rule {
     ..Rule::of("W1103")
 };
 
-/// The finding about a COB-ID that is the pre-defined one without node ID.
 pub(crate) fn w1103_node_id_added(address: Address, value: Span, id: u32) -> Finding {
     let finding = W1103.at(value).about(address).key(Key::DefaultValue);
     finding.fact("id", i128::from(id))
@@ -85,14 +83,12 @@ const W1104_MANY: Form = Form {
     help: "map at most 8 objects",
 };
 
-/// The finding about an object that the PDOs before or after it need.
 pub(crate) fn w1104_gap(missing: u16) -> Finding {
     let finding = W1104.finding().about(Address::new(missing, 0));
     let finding = finding.fact("missing", Fact::Index(missing));
     finding.fact("section", Fact::Section(missing, None))
 }
 
-/// The finding about a PDO that maps too many objects.
 pub(crate) fn w1104_many(address: Address, value: Span, count: i128) -> Finding {
     let finding = W1104.at(value).about(address).form(&W1104_MANY);
     finding.fact("count", count)
@@ -122,7 +118,6 @@ pub(crate) static I1106: Rule = Rule {
     ..Rule::of("I1106")
 };
 
-/// The finding about all limits.
 pub(crate) fn i1106_limits_not_checked(count: usize) -> Finding {
     I1106.finding().fact("count", count as i128)
 }
@@ -137,7 +132,6 @@ pub(crate) static I1107: Rule = Rule {
     ..Rule::of("I1107")
 };
 
-/// The finding about missing objects.
 pub(crate) fn i1107_needed_object_missing(missing: impl Iterator<Item = u16>) -> Finding {
     let missing = missing.map(Fact::Index).collect();
     I1107.finding().fact("objects", Fact::List(missing))
@@ -153,7 +147,6 @@ pub(crate) static I1108: Rule = Rule {
     ..Rule::of("I1108")
 };
 
-/// The finding about a mapping entry that is not of whole bytes.
 pub(crate) fn i1108_single_bits_on_request(address: Address, value: Span, bits: u8) -> Finding {
     let finding = I1108.at(value).about(address);
     finding.fact("bits", i128::from(bits))
@@ -169,7 +162,6 @@ pub(crate) static W1109: Rule = Rule {
     ..Rule::of("W1109")
 };
 
-/// The finding about a missing object that every node of CANopenNode needs.
 pub(crate) fn w1109_cannot_start(missing: u16) -> Finding {
     let finding = W1109.finding().about(Address::new(missing, 0));
     let finding = finding.fact("object", Fact::Index(missing));
@@ -185,7 +177,6 @@ pub(crate) static W1110: Rule = Rule {
     ..Rule::of("W1110")
 };
 
-/// The finding about the number of mapped objects.
 pub(crate) fn w1110_multiplexed_pdo(mapping: Address) -> Finding {
     W1110.finding().about(mapping)
 }
@@ -200,7 +191,6 @@ pub(crate) static W1111: Rule = Rule {
     ..Rule::of("W1111")
 };
 
-/// The finding about an object beyond the 64 bits of a PDO.
 pub(crate) fn w1111_no_room_in_message(pdo: Address, mapped: Address) -> Finding {
     let finding = W1111.finding().about(pdo);
     finding.fact("mapped", Fact::Object(mapped))
@@ -215,7 +205,6 @@ pub(crate) static W1112: Rule = Rule {
     ..Rule::of("W1112")
 };
 
-/// The finding about a mapped value that is not a number.
 pub(crate) fn w1112_not_a_number(mapped: Address, data_type: DataType) -> Finding {
     W1112.finding().about(mapped).fact("type", data_type)
 }
@@ -230,7 +219,6 @@ pub(crate) static W1113: Rule = Rule {
     ..Rule::of("W1113")
 };
 
-/// The finding about a COB-ID.
 pub(crate) fn w1113_same_can_id(cob_id: Address, id: u32) -> Finding {
     let finding = W1113.finding().about(cob_id);
     finding.fact("id", i128::from(id))

@@ -55,7 +55,6 @@ const E0701_MEMBERS: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about an object that the description lacks.
 pub(crate) fn e0701_object_missing(target: &Spanned<Target>) -> Finding {
     let finding = target.finding(&E0701, target.span);
     finding.fact("object", Fact::Index(target.index))
@@ -102,7 +101,6 @@ pub(crate) static E0702: Rule = Rule {
     ..Rule::of("E0702")
 };
 
-/// The finding about an `add` of an object or a sub-object that the description has.
 pub(crate) fn e0702_object_exists(target: &Spanned<Target>) -> Finding {
     target
         .named(&E0702, target.span)
@@ -119,7 +117,6 @@ pub(crate) static E0703: Rule = Rule {
     ..Rule::of("E0703")
 };
 
-/// The finding about an `add` of a sub-object without an object.
 pub(crate) fn e0703_sub_object_without_object(target: &Spanned<Target>) -> Finding {
     target
         .named(&E0703, target.span)
@@ -143,7 +140,6 @@ const E0704_ADDED: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about a sub-index of an object with this code.
 pub(crate) fn e0704_object_without_sub_objects(
     target: &Spanned<Target>,
     code: ObjectCode,
@@ -169,7 +165,6 @@ pub(crate) static E0705: Rule = Rule {
     ..Rule::of("E0705")
 };
 
-/// The finding about an `add` without a name.
 pub(crate) fn e0705_name_missing(target: &Spanned<Target>) -> Finding {
     target.named(&E0705, target.span)
 }
@@ -184,7 +179,6 @@ pub(crate) static E0706: Rule = Rule {
     ..Rule::of("E0706")
 };
 
-/// The finding about an `add` without a type.
 pub(crate) fn e0706_type_missing(target: &Spanned<Target>) -> Finding {
     target
         .named(&E0706, target.span)
@@ -230,7 +224,6 @@ pub(crate) static E0708: Rule = Rule {
     ..Rule::of("E0708")
 };
 
-/// The finding about a value that is not valid for the type that an edit gives.
 pub(crate) fn e0708_value_of_base_not_valid(
     target: &Spanned<Target>,
     at: Span,
@@ -256,7 +249,6 @@ pub(crate) static E0709: Rule = Rule {
     ..Rule::of("E0709")
 };
 
-/// The finding about an object code at a sub-object.
 pub(crate) fn e0709_sub_object_with_object_code(target: &Spanned<Target>, at: Span) -> Finding {
     target
         .named(&E0709, at)
@@ -273,7 +265,6 @@ pub(crate) static E0710: Rule = Rule {
     ..Rule::of("E0710")
 };
 
-/// The finding about a field of a value at an object with sub-objects.
 pub(crate) fn e0710_value_of_object_with_sub_objects(
     target: &Spanned<Target>,
     at: Span,
@@ -319,7 +310,6 @@ pub(crate) fn e0711_limit(
     finding.fact("type", data_type).form(&E0711_LIMIT)
 }
 
-/// The finding about `capacity` of a number.
 pub(crate) fn e0711_capacity(target: &Spanned<Target>, at: Span, data_type: DataType) -> Finding {
     let finding = target.finding(&E0711, at).key(Key::Capacity);
     finding.fact("type", data_type)
@@ -348,7 +338,6 @@ const E0712_ZERO: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about an `add` below 1000h.
 pub(crate) fn e0712_index_of_data_types(target: &Spanned<Target>) -> Finding {
     let finding = target.finding(&E0712, target.span);
     let finding = finding.fact("object", Fact::Index(target.index));

@@ -25,7 +25,6 @@ pub(crate) static E1201: Rule = Rule {
     ..Rule::of("E1201")
 };
 
-/// The finding about two nodes.
 pub(crate) fn e1201_same_node_id(first: &str, second: &str, id: u8) -> Finding {
     let finding = E1201.finding().fact("first", first);
     finding.fact("second", second).fact("id", i128::from(id))
@@ -41,7 +40,6 @@ pub(crate) static E1202: Rule = Rule {
     ..Rule::of("E1202")
 };
 
-/// The finding about two senders.
 pub(crate) fn e1202_same_can_id(first: &str, second: &str, id: u32) -> Finding {
     let finding = E1202.finding().fact("first", first);
     finding.fact("second", second).fact("id", i128::from(id))
@@ -57,7 +55,6 @@ pub(crate) static W1203: Rule = Rule {
     ..Rule::of("W1203")
 };
 
-/// The finding about a consumer.
 pub(crate) fn w1203_no_producer(consumer: &str, what: &str) -> Finding {
     let finding = W1203.finding().fact("consumer", consumer);
     finding.fact("what", what)
@@ -73,7 +70,6 @@ pub(crate) static E1204: Rule = Rule {
     ..Rule::of("E1204")
 };
 
-/// The finding about a consumer and its producer.
 pub(crate) fn e1204_consumer_time_too_short(
     consumer: &str,
     time: u32,
@@ -113,7 +109,6 @@ pub(crate) static W1206: Rule = Rule {
     ..Rule::of("W1206")
 };
 
-/// The finding about a PDO and its consumer.
 pub(crate) fn w1206_pdo_too_short(
     consumer: &str,
     mapped: u32,
@@ -163,29 +158,24 @@ const BIT_RATE: Form = Form {
     help: "write one Baudrate in the DCFs of all nodes",
 };
 
-/// The finding about the number of nodes.
 pub(crate) fn w1207_node_count(given: &Text<'_>, count: usize) -> Finding {
     W1207.given(given).fact("count", count)
 }
 
-/// The finding about the key of a node that cannot exist.
 pub(crate) fn w1207_node_id_not_valid(key: &Text<'_>) -> Finding {
     let finding = W1207.at(key.span).form(&NODE_ID).severity_of(Error);
     finding.fact("key", key.as_ref())
 }
 
-/// The finding about a value of NodeXPresent.
 pub(crate) fn w1207_present_not_valid(given: &Text<'_>, id: u8) -> Finding {
     W1207.given(given).form(&PRESENT).fact("id", id)
 }
 
-/// The finding about the NodeID of a DCF.
 pub(crate) fn w1207_node_id_differs(file: &Text<'_>, id: u8, own: u8) -> Finding {
     let finding = W1207.at(file.span).form(&OTHER_ID).severity_of(Error);
     finding.fact("id", id).fact("own", own)
 }
 
-/// The finding about the bit rate of a DCF.
 pub(crate) fn w1207_bit_rate_differs(file: &Text<'_>, own: u32, first: u32) -> Finding {
     let finding = W1207.at(file.span).form(&BIT_RATE).severity_of(Error);
     finding.fact("own", own).fact("first", first)

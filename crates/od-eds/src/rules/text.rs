@@ -51,7 +51,6 @@ const W0101_NO_SIGN: Form = Form {
     help: "write `{name}={given}`{fix}",
 };
 
-/// The finding about a key and a value with only `at` between them.
 pub(crate) fn w0101_no_sign(at: Span, key: &str, value: &str) -> Finding {
     let finding = W0101.at(at).form(&W0101_NO_SIGN).fact("name", key);
     finding
@@ -59,7 +58,6 @@ pub(crate) fn w0101_no_sign(at: Span, key: &str, value: &str) -> Finding {
         .fix(Fix::safe().replace(at, "="))
 }
 
-/// The finding about a line of no known form.
 pub(crate) fn w0101_unknown_line(line: Spanned<&str>) -> Finding {
     let finding = W0101.given(&line);
     finding.fix(Fix::safe().comment_out(line.span))
@@ -75,7 +73,6 @@ pub(crate) static W0102: Rule = Rule {
     ..Rule::of("W0102")
 };
 
-/// The finding about a line without a key.
 pub(crate) fn w0102_no_key(line: Spanned<&str>) -> Finding {
     let finding = W0102.given(&line);
     finding.fix(Fix::safe().comment_out(line.span))
@@ -93,7 +90,6 @@ pub(crate) static W0103: Rule = Rule {
     ..Rule::of("W0103")
 };
 
-/// The finding about a header without a closing bracket.
 pub(crate) fn w0103_no_closing_bracket(line: Span, name: Spanned<&str>) -> Finding {
     let fix = Fix::safe().replace(name.span, format!("{}]", *name));
     W0103.at(line).fact("given", *name).fix(fix)
@@ -126,7 +122,6 @@ pub(crate) static W0105: Rule = Rule {
     ..Rule::of("W0105")
 };
 
-/// The finding about a key without a section.
 pub(crate) fn w0105_key_before_section(line: Span, key: &str) -> Finding {
     W0105.at(line).fact("name", key)
 }
@@ -143,7 +138,6 @@ pub(crate) static W0106: Rule = Rule {
 /// The label at the first of two.
 const FIRST: &str = "first defined here";
 
-/// The finding about a second section with the same name.
 pub(crate) fn w0106_duplicate_section(second: &TextSection<'_>, first: Span) -> Finding {
     let finding = W0106.at(second.header).fact("name", &*second.name.value);
     finding.related(first, FIRST)
@@ -159,7 +153,6 @@ pub(crate) static W0107: Rule = Rule {
     ..Rule::of("W0107")
 };
 
-/// The finding about a second line of a key with the same value.
 pub(crate) fn w0107_duplicate_key(first: Span, key: &Text<'_>, value: &Text<'_>) -> Finding {
     repeated(&W0107, first, key, value).fix(Fix::safe().remove_line(key.span))
 }
@@ -182,7 +175,6 @@ pub(crate) static W0108: Rule = Rule {
     ..Rule::of("W0108")
 };
 
-/// The finding about a colon between key and value.
 pub(crate) fn w0108_colon(colon: Span, key: &str, value: &str) -> Finding {
     let finding = W0108.at(colon).fact("name", key).fact("given", value);
     finding.fix(Fix::safe().replace(colon, "="))
@@ -220,7 +212,6 @@ pub(crate) static W0110: Rule = Rule {
     ..Rule::of("W0110")
 };
 
-/// The finding about empty brackets.
 pub(crate) fn w0110_header_without_name(header: Span) -> Finding {
     W0110.at(header)
 }
@@ -320,7 +311,6 @@ pub(crate) static E0115: Rule = Rule {
     ..Rule::of("E0115")
 };
 
-/// The finding about a reference to a parameter that does not exist.
 #[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn e0115_xdd_parameter_missing(at: Span, id: &str) -> Finding {
     E0115.at(at).fact("given", id)
@@ -376,7 +366,6 @@ pub(crate) static E0118: Rule = Rule {
     ..Rule::of("E0118")
 };
 
-/// The finding about a line that git writes between two versions.
 pub(crate) fn e0118_merge_conflict(line: Spanned<&str>) -> Finding {
     E0118.given(&line)
 }
@@ -406,7 +395,6 @@ pub(crate) static W0120: Rule = Rule {
     ..Rule::of("W0120")
 };
 
-/// The finding about a value without objectType.
 #[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn w0120_object_type_missing(at: Span) -> Finding {
     W0120.at(at)

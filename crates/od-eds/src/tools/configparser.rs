@@ -80,7 +80,6 @@ fn folded(name: Cow<'_, str>, folds: bool) -> Cow<'_, str> {
 }
 
 impl<'a> Ini<'a> {
-    /// Reads a text.
     pub(crate) fn read(text: &'a str, dialect: &Dialect) -> Self {
         let mut reader = Reader {
             ini: Self {
@@ -103,7 +102,6 @@ impl<'a> Ini<'a> {
         reader.ini
     }
 
-    /// The section of a name.
     pub(crate) fn section(&self, name: &str) -> Option<&Section<'a>> {
         let name = folded(Cow::Borrowed(name), self.folds);
         let at = self.names.get(name.as_ref()).copied();
@@ -144,7 +142,6 @@ impl<'a> Ini<'a> {
         self.sections.push(section);
     }
 
-    /// Sets a key of a section.
     pub(crate) fn set(&mut self, section: &str, key: String, value: String) {
         let name = folded(Cow::Borrowed(section), self.folds);
         if let Some(at) = self.names.get(name.as_ref()) {

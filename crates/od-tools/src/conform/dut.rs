@@ -79,7 +79,6 @@ impl Dut<'_> {
         }
     }
 
-    /// Sends a frame.
     pub(crate) fn send(&mut self, frame: Frame) -> Checked {
         let at = self.begin();
         self.silence = 0;

@@ -42,6 +42,11 @@ pub(crate) fn lacks<T>(why: impl Into<String>) -> Checked<T> {
     Err(End::NotApplicable(why.into()))
 }
 
+/// Ends a case about several objects: it does not apply if the node has none of them.
+pub(crate) fn at_least_one(is_any: bool, why: &str) -> Checked {
+    if is_any { Ok(()) } else { lacks(why) }
+}
+
 /// The step cannot be tested on this link.
 pub(crate) fn skip<T>(why: impl Into<String>) -> Checked<T> {
     Err(End::Skip(why.into()))

@@ -37,7 +37,6 @@ pub(super) struct Signal {
     pub(super) values: &'static [(u8, &'static str)],
 }
 
-/// A message.
 #[derive(Clone, Debug)]
 pub(super) struct Message {
     pub(super) name: String,

@@ -48,7 +48,6 @@ pub(crate) static W0202: Rule = Rule {
     ..Rule::of("W0202")
 };
 
-/// The finding about an object that no list has.
 pub(crate) fn w0202_object_not_listed(object: Span, index: u16) -> Finding {
     W0202
         .at(object)
@@ -143,7 +142,6 @@ pub(crate) static W0205: Rule = Rule {
     ..Rule::of("W0205")
 };
 
-/// The finding about an entry that is not a number and an index.
 pub(crate) fn w0205_list_entry_not_valid(key: &Text<'_>, value: &Text<'_>) -> Finding {
     W0205
         .at(key.span)
@@ -159,7 +157,6 @@ pub(crate) static W0206: Rule = Rule {
     ..Rule::of("W0206")
 };
 
-/// The finding about an entry in the wrong list.
 pub(crate) fn w0206_wrong_list(entry: Span, index: u16, list: List) -> Finding {
     W0206
         .at(entry)
@@ -178,7 +175,6 @@ pub(crate) static W0207: Rule = Rule {
     ..Rule::of("W0207")
 };
 
-/// The finding about a second entry for an object.
 pub(crate) fn w0207_listed_twice(entry: Span, index: u16, first: Span) -> Finding {
     W0207
         .at(entry)
@@ -210,7 +206,6 @@ pub(crate) static W0209: Rule = Rule {
     ..Rule::of("W0209")
 };
 
-/// The finding about a compact section of an object without CompactSubObj.
 pub(crate) fn w0209_compact_without_key(section: &TextSection<'_>, index: u16) -> Finding {
     W0209
         .at(section.header)
@@ -228,7 +223,6 @@ pub(crate) static I0211: Rule = Rule {
     ..Rule::of("I0211")
 };
 
-/// The finding about a section that CiA 306 does not define.
 pub(crate) fn i0211_unknown_section(section: &TextSection<'_>) -> Finding {
     let finding = I0211.at(section.header).fact("name", &*section.name.value);
     if is_object(section) {
@@ -256,7 +250,6 @@ pub(crate) static I0212: Rule = Rule {
     ..Rule::of("I0212")
 };
 
-/// The finding about a section of an object with another spelling of its name.
 pub(crate) fn i0212_section_name_spelling(section: &TextSection<'_>, right: &str) -> Finding {
     // Another index loses the whole object, a leading 0 in the sub-index loses a sub-object.
     let own = |name: &str| name.get(..4).map(str::to_ascii_uppercase);
@@ -317,7 +310,6 @@ pub(crate) static W0214: Rule = Rule {
     ..Rule::of("W0214")
 };
 
-/// The finding about a number that another entry of the list has.
 pub(crate) fn w0214_number_twice(renumbered: Fix, key: &Text<'_>, first: Span) -> Finding {
     W0214
         .at(key.span)
@@ -342,13 +334,11 @@ const W0215_UNLISTED: Form = Form {
     help: "add `0x{object:04X}` to [{list}]",
 };
 
-/// The finding about an entry in a module's list that has no section.
 pub(crate) fn w0215_no_section(entry: Span, index: u16, module: u16) -> Finding {
     let finding = W0215.at(entry).fact("object", Fact::Index(index));
     finding.fact("module", module)
 }
 
-/// The finding about an object of a module that is not in the list of this name.
 pub(crate) fn w0215_unlisted(header: Span, index: u16, list: &str) -> Finding {
     let finding = W0215.at(header).form(&W0215_UNLISTED);
     finding
@@ -372,12 +362,10 @@ const W0217_SECTION: Form = Form {
     help: "remove the section, or save the file as a DCF (`FileName` and file name ending in `.dcf`)",
 };
 
-/// The finding about a key.
 pub(crate) fn w0217_dcf_key(key: &Text<'_>) -> Finding {
     W0217.at(key.span).fact("name", &*key.value)
 }
 
-/// The finding about a section.
 pub(crate) fn w0217_dcf_section(header: Span, name: &str) -> Finding {
     W0217.at(header).form(&W0217_SECTION).fact("name", name)
 }
@@ -399,13 +387,11 @@ const W0218_NUMBER: Form = Form {
     help: "write `{number}`{fix}",
 };
 
-/// The finding about the index of an entry.
 pub(crate) fn w0218_index(value: &Text<'_>, index: u16) -> Finding {
     let fix = Fix::safe().replace(value.span, format!("0x{index:04X}"));
     W0218.given(value).index(index).fix(fix)
 }
 
-/// The finding about the number of an entry.
 pub(crate) fn w0218_number(key: &Text<'_>, number: i128) -> Finding {
     let fix = Fix::safe().replace(key.span, format!("{number}"));
     W0218
@@ -496,7 +482,6 @@ pub(crate) fn is_rate(key: &str) -> bool {
     start.is_some_and(|start| start.eq_ignore_ascii_case("BaudRate_"))
 }
 
-/// The finding about the key of another bit rate.
 pub(crate) fn w0252_bit_rate_unknown(key: &Text<'_>) -> Finding {
     // Other tools work without it, too.
     W0252

@@ -41,7 +41,6 @@ const W0609_VERSION: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about a value of a section that its key does not allow.
 pub(crate) fn w0609_key_value_not_valid(
     section: &str,
     key: &str,
@@ -113,7 +112,6 @@ const I0610_TIME: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about a date or a time in another form.
 pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
     let finding = I0610.given(given).fact("name", key);
     match wanted {
@@ -154,7 +152,6 @@ pub(crate) static W0658: Rule = Rule {
     ..Rule::of("W0658")
 };
 
-/// The finding about a DCF without the section of its node.
 pub(crate) fn w0658_commissioning_missing() -> Finding {
     W0658.finding()
 }

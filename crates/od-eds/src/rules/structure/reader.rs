@@ -21,7 +21,6 @@ pub(crate) static E0301: Rule = Rule {
     ..Rule::of("E0301")
 };
 
-/// The finding about an ObjectType that no object code has.
 pub(crate) fn e0301_object_code_unknown(given: &Text<'_>) -> Finding {
     E0301.given(given).key(Key::ObjectType)
 }
@@ -36,7 +35,6 @@ pub(crate) static W0302: Rule = Rule {
     ..Rule::of("W0302")
 };
 
-/// The finding about an object without ObjectType that has sub-objects.
 pub(crate) fn w0302_object_type_missing(header: Span) -> Finding {
     W0302
         .at(header)
@@ -130,7 +128,6 @@ pub(crate) static W0313: Rule = Rule {
     ..Rule::of("W0313")
 };
 
-/// The finding about a CompactSubObj that is not valid.
 pub(crate) fn w0313_compact_not_valid(given: &Text<'_>) -> Finding {
     W0313.given(given).key(Key::CompactSubObj)
 }
@@ -144,7 +141,6 @@ pub(crate) static W0314: Rule = Rule {
     ..Rule::of("W0314")
 };
 
-/// The finding about an entry of a compact section for a sub-index that does not exist.
 pub(crate) fn w0314_compact_sub_index_missing(given: &Text<'_>, count: &Spanned<u8>) -> Finding {
     W0314
         .given(given)
@@ -161,7 +157,6 @@ pub(crate) static W0315: Rule = Rule {
     ..Rule::of("W0315")
 };
 
-/// The finding about a section without ParameterName.
 pub(crate) fn w0315_name_missing(header: Span) -> Finding {
     W0315.at(header)
 }
@@ -177,7 +172,6 @@ pub(crate) static W0316: Rule = Rule {
     ..Rule::of("W0316")
 };
 
-/// The finding about a SubNumber that is not a number.
 pub(crate) fn w0316_sub_number_not_a_number(given: &Text<'_>) -> Finding {
     W0316.given(given).key(Key::SubNumber)
 }
@@ -192,7 +186,6 @@ pub(crate) static W0317: Rule = Rule {
     ..Rule::of("W0317")
 };
 
-/// The finding about an object with sub-objects and no SubNumber.
 pub(crate) fn w0317_sub_number_missing(header: Span, count: u32) -> Finding {
     let fix = Fix::safe().below(header, format!("SubNumber={count}"));
     W0317.at(header).fact("count", count).fix(fix)
@@ -208,7 +201,6 @@ pub(crate) static W0318: Rule = Rule {
     ..Rule::of("W0318")
 };
 
-/// The finding about a key that is probably misspelled.
 pub(crate) fn w0318_key_misspelled(key: &Text<'_>, value: &str, meant: &str) -> Finding {
     W0318
         .at(key.span)
@@ -227,7 +219,6 @@ pub(crate) static I0319: Rule = Rule {
     ..Rule::of("I0319")
 };
 
-/// The finding about a key that CiA 306 does not define.
 pub(crate) fn i0319_unknown_key(key: &Text<'_>) -> Finding {
     I0319.at(key.span).fact("name", &*key.value)
 }
@@ -307,7 +298,6 @@ pub(crate) static W0322: Rule = Rule {
     ..Rule::of("W0322")
 };
 
-/// The finding about the ObjectType of a sub-index.
 pub(crate) fn w0322_sub_index_not_var(given: &Text<'_>) -> Finding {
     W0322
         .given(given)
@@ -348,7 +338,6 @@ pub(crate) static W0324: Rule = Rule {
     ..Rule::of("W0324")
 };
 
-/// The finding about a CompactSubObj of an object that has sections of sub-objects.
 pub(crate) fn w0324_compact_beside_sections(count: Span) -> Finding {
     W0324.at(count).key(Key::CompactSubObj)
 }
@@ -386,7 +375,6 @@ pub(crate) static W0342: Rule = Rule {
     ..Rule::of("W0342")
 };
 
-/// The finding about ObjFlags with bits that have no meaning.
 pub(crate) fn w0342_obj_flags_reserved(given: &Text<'_>, flags: u32) -> Option<Finding> {
     let finding = W0342.at(given.span).key(Key::ObjFlags);
     (flags & !3 != 0).then(|| finding.fact("flags", flags))
@@ -402,7 +390,6 @@ pub(crate) static E0353: Rule = Rule {
     ..Rule::of("E0353")
 };
 
-/// The finding about too high a number of sub-objects.
 pub(crate) fn e0353_too_many_sub_objects(count: Span) -> Finding {
     E0353
         .at(count)

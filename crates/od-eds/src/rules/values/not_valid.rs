@@ -73,7 +73,6 @@ pub(crate) fn w0416_emptied(finding: Finding) -> Finding {
     }
 }
 
-/// The finding about a limit of a type that has none.
 pub(crate) fn w0416_no_limits(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
     let finding = W0416
         .given(given)

@@ -20,7 +20,6 @@ pub(crate) static E0402: Rule = Rule {
     ..Rule::of("E0402")
 };
 
-/// The finding about a DataType of no known type.
 pub(crate) fn e0402_data_type_unknown(given: &Text<'_>) -> Finding {
     let finding = E0402.given(given).key(Key::DataType);
     finding.fact("right", DataType::Unsigned32)
@@ -38,7 +37,6 @@ pub(crate) static W0404: Rule = Rule {
     ..Rule::of("W0404")
 };
 
-/// The finding about a section without AccessType.
 pub(crate) fn w0404_access_type_missing(header: Span) -> Finding {
     W0404
         .at(header)
@@ -54,7 +52,6 @@ pub(crate) static E0405: Rule = Rule {
     ..Rule::of("E0405")
 };
 
-/// The finding about an unknown AccessType.
 pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>) -> Finding {
     E0405.given(given).key(Key::AccessType)
 }
@@ -86,7 +83,6 @@ pub(crate) fn w0406_in_xdd(given: &Spanned<String>) -> Finding {
         .severity_of(Error)
 }
 
-/// The finding about a PDOMapping that is neither yes nor no.
 pub(crate) fn w0406_pdo_mapping_not_valid(given: &Text<'_>) -> Finding {
     W0406.given(given).key(Key::PdoMapping)
 }
@@ -101,7 +97,6 @@ pub(crate) static W0407: Rule = Rule {
     ..Rule::of("W0407")
 };
 
-/// The finding about ObjFlags that are not a number.
 pub(crate) fn w0407_obj_flags_not_a_number(given: &Text<'_>) -> Finding {
     W0407
         .given(given)
@@ -137,7 +132,6 @@ pub(crate) static W0426: Rule = Rule {
     ..Rule::of("W0426")
 };
 
-/// The finding about a section without a DataType.
 pub(crate) fn w0426_standard_type_missing(header: Span, data_type: DataType) -> Finding {
     let right = format!("DataType=0x{:04X}", data_type.code());
     let fix = Fix::safe().below(header, right);
@@ -154,8 +148,6 @@ pub(crate) static E0428: Rule = Rule {
     ..Rule::of("E0428")
 };
 
-/// The finding about a formula with this offset and another name for the node ID than that of CiA
-/// 306.
 pub(crate) fn e0428_node_id_misspelled(key: Key, given: &Text<'_>, offset: u32) -> Finding {
     let right = format!("$NODEID+0x{offset:X}");
     let finding = E0428.given(given).key(key).fact("offset", offset);
@@ -190,7 +182,6 @@ pub(crate) static W0456: Rule = Rule {
     ..Rule::of("W0456")
 };
 
-/// The finding about UploadFile or DownloadFile of a value with another type.
 pub(crate) fn w0456_file_of_number(
     place: Span,
     file: &'static str,

@@ -35,7 +35,6 @@ pub(super) fn data_type(entry: &Entry<'_>) -> Option<Spanned<DataType>> {
         .filter(|data_type| data_type.kind() != Kind::Record)
 }
 
-/// The values of an entry, each with its key.
 pub(super) fn values<'a>(
     entry: &Entry<'a>,
 ) -> impl Iterator<Item = (Key, &'a Spanned<Value>)> + use<'a> {

@@ -38,7 +38,6 @@ impl<'a> Lint<'a> {
         }
     }
 
-    /// Limits of a section.
     pub(super) fn check_limits(&mut self, section: &'a Section<'a>) {
         if self.given(section, "DataType").is_none() {
             return;

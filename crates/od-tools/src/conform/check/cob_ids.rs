@@ -8,7 +8,7 @@ use super::lss::renumber;
 use super::transmit::{learn_sync, timed};
 use crate::bench::OnBench;
 use crate::conform::dut::{Dut, QUIET, is_data};
-use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks, skip};
 use crate::conform::sdo::{abort_text, is_abort, number, request};
 
 use od_sim::bus::Bus;
@@ -204,11 +204,7 @@ pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no COB-ID can be written")
-    }
+    at_least_one(any, "no COB-ID can be written")
 }
 
 /// Restricted CAN-IDs, the first and the last of each range of the table of restricted CAN-IDs (CiA 301), and those of
@@ -262,11 +258,7 @@ pub(super) fn fixed(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no COB-ID that is valid can be written")
-    }
+    at_least_one(any, "no COB-ID that is valid can be written")
 }
 
 /// A TPDO with a CAN-ID of 29 bits is sent with it, or the node refuses bit 29.
@@ -371,11 +363,7 @@ pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no COB-ID can be written")
-    }
+    at_least_one(any, "no COB-ID can be written")
 }
 
 /// Returns whether the COB-ID is not used: 0 of a client, a consumer or a PDO that maps nothing.

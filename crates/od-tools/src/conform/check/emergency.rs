@@ -316,7 +316,7 @@ pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// 1029h:01 gives the reaction of the NMT state to a communication error.
-fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
+pub(super) fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
     dut.set(Address::new(0x1029, 1), &[value])?;
     dut.follow_state()?;
     let node = provoke(dut)?;
@@ -325,18 +325,6 @@ fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
     let done = dut.is_in(state);
     beat(dut, node)?;
     done
-}
-
-pub(super) fn behaviour_pre_operational(dut: &mut Dut<'_>) -> Checked {
-    behaviour(dut, 0, 0x7F)
-}
-
-pub(super) fn behaviour_none(dut: &mut Dut<'_>) -> Checked {
-    behaviour(dut, 1, 5)
-}
-
-pub(super) fn behaviour_stopped(dut: &mut Dut<'_>) -> Checked {
-    behaviour(dut, 2, 4)
 }
 
 pub(super) fn behaviour_range(dut: &mut Dut<'_>) -> Checked {

@@ -3,7 +3,7 @@
 use od_model::{Address, values};
 
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, at_least_one, ensure, fail};
 use crate::conform::sdo::number;
 
 pub(super) fn no_errors(dut: &mut Dut<'_>) -> Checked {
@@ -87,11 +87,7 @@ pub(super) fn device_info(dut: &mut Dut<'_>) -> Checked {
             format!("{is:X}h was read"),
         )?;
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("[DeviceInfo] has no VendorNumber and ProductNumber")
-    }
+    at_least_one(any, "[DeviceInfo] has no VendorNumber and ProductNumber")
 }
 
 /// The numbers of PDOs in `[DeviceInfo]` are those of the EDS.

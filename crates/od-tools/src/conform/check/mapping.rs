@@ -10,7 +10,7 @@ use od_wire::nmt::Command;
 
 use super::transmit::{Tpdo, contradiction, first, is_on, mapping, timed};
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::{is_abort, request};
 
 /// Makes the first TPDO not valid and its mapping empty; [`close`] restores both.
@@ -309,11 +309,7 @@ pub(super) fn each_refuses(dut: &mut Dut<'_>, base: u16, entry: u32) -> Checked 
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("the mapping cannot be written")
-    }
+    at_least_one(any, "the mapping cannot be written")
 }
 
 /// The node refuses a mapping entry that no TPDO may have, at once or with the number of entries.

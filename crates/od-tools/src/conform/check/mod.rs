@@ -22,6 +22,8 @@ mod tpdo;
 mod transfer;
 mod transmit;
 
+use od_wire::nmt::Command;
+
 use super::dut::Dut;
 use super::end::Checked;
 
@@ -211,11 +213,11 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
     ("NMT", &[
         check("nmt-boot-up", nmt::boot_up,
             "CiA 301 7.2.8.3.3: Reset node ends with one boot-up message, from each NMT state.").needs("reset"),
-        check("nmt-boot-up-first", nmt::boot_up_first,
+        check("nmt-boot-up-first", |dut| nmt::first_frame(dut, Command::ResetNode),
             "CiA 301 7.3.2.2: The boot-up message is the first frame after a reset.").needs("reset"),
         check("nmt-boot-up-communication", nmt::boot_up_after_communication,
             "CiA 301 7.2.8.3.3: Reset communication ends with a boot-up message, from each NMT state.").needs("reset"),
-        check("nmt-boot-up-communication-first", nmt::boot_up_first_communication,
+        check("nmt-boot-up-communication-first", |dut| nmt::first_frame(dut, Command::ResetCommunication),
             "CiA 301 7.3.2.2: The boot-up message is the first frame after reset communication.").needs("reset"),
         check("nmt-silent-before-start", nmt::silent_before_start,
             "CiA 301 7.3.2.2.2: Between boot-up and the first start, the node sends no PDO, and no EMCY message without an error.").needs("reset"),
@@ -243,9 +245,9 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.3.2.2.3: SDO works in Operational."),
         check("nmt-no-sdo-in-stopped", nmt::no_sdo_in_stopped,
             "CiA 301 7.3.2.2.4: SDO does not work in Stopped."),
-        check("nmt-reset-communication-values", nmt::reset_communication_values,
+        check("nmt-reset-communication-values", |dut| nmt::forgets(dut, Command::ResetCommunication),
             "CiA 301 7.3.2.2.1: Reset communication restores the communication parameters.").needs("reset"),
-        check("nmt-reset-node-values", nmt::reset_node_values,
+        check("nmt-reset-node-values", |dut| nmt::forgets(dut, Command::ResetNode),
             "CiA 301 7.3.2.2.1: Reset node restores the communication parameters.").needs("reset"),
         check("nmt-reset-application", nmt::reset_application,
             "CiA 301 7.3.2.2.1: Reset node restores the parameters of the application.").needs("reset"),
@@ -310,9 +312,9 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.37: An event-driven TPDO is sent when its event timer has elapsed.").applies("tpdo"),
         check("tpdo-event-timer-off", tpdo::event_timer_off,
             "CiA 301 7.5.2.37: With event timer 0, a TPDO is sent only on events.").applies("tpdo"),
-        check("tpdo-sync-every", tpdo::sync_every,
+        check("tpdo-sync-every", |dut| tpdo::sync_each(dut, 1, 5),
             "CiA 301 7.5.2.37: With transmission type 1, a TPDO is sent with every SYNC.").applies("tpdo"),
-        check("tpdo-sync-third", tpdo::sync_third,
+        check("tpdo-sync-third", |dut| tpdo::sync_each(dut, 3, 9),
             "CiA 301 7.5.2.37: With transmission type 3, a TPDO is sent with every third SYNC.").applies("tpdo"),
         check("tpdo-acyclic", tpdo::acyclic,
             "CiA 301 7.5.2.37: With transmission type 0, no TPDO is sent without SYNC.").applies("tpdo"),
@@ -527,11 +529,11 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.3.5: A CAN-ID that is restricted is refused with 06090030h."),
     ]),
     ("error behaviour", &[
-        check("error-behaviour-pre-operational", emergency::behaviour_pre_operational,
+        check("error-behaviour-pre-operational", |dut| emergency::behaviour(dut, 0, 0x7F),
             "CiA 301 7.5.2.32: With 0 in 1029h:01 an error of communication leads to Pre-operational.").applies("1029h:01 rw, 1016h"),
-        check("error-behaviour-none", emergency::behaviour_none,
+        check("error-behaviour-none", |dut| emergency::behaviour(dut, 1, 5),
             "CiA 301 7.5.2.32: With 1 in 1029h:01 the NMT state stays.").applies("1029h:01 rw, 1016h"),
-        check("error-behaviour-stopped", emergency::behaviour_stopped,
+        check("error-behaviour-stopped", |dut| emergency::behaviour(dut, 2, 4),
             "CiA 301 7.5.2.32: With 2 in 1029h:01 an error of communication leads to Stopped.").applies("1029h:01 rw, 1016h"),
         check("error-behaviour-range", emergency::behaviour_range,
             "CiA 301 7.5.2.32: A value in 1029h:01 beyond the limits is refused.").applies("1029h:01 rw"),
@@ -633,7 +635,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
     ("store and restore", &[
         check("store-can", store::save_can,
             "CiA 301 7.5.2.13: 1010h:01 says that the node saves.").applies("1010h:01"),
-        check("store-signature", store::save_signature,
+        check("store-signature", |dut| store::wrong_signature(dut, 0x1010),
             "CiA 301 7.5.2.13: A wrong signature saves nothing: 08000020h.").applies("1010h:01"),
         check("store-save", store::save,
             "CiA 301 7.5.2.13: A saved value is there after a reset.").applies("1010h:01").needs("reset, store"),
@@ -657,7 +659,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.34: SDO clients are the same after a save and reset communication.").applies("1280h, 1010h:01").needs("reset, store"),
         check("restore-can", store::load_can,
             "CiA 301 7.5.2.14: 1011h:01 says that the node restores.").applies("1011h:01"),
-        check("restore-signature", store::load_signature,
+        check("restore-signature", |dut| store::wrong_signature(dut, 0x1011),
             "CiA 301 7.5.2.14: A wrong signature restores nothing: 08000020h.").applies("1011h:01"),
         check("restore-load", store::load,
             "CiA 301 7.5.2.14: After a restore and a reset the defaults are there.").applies("1011h:01, 1010h:01").needs("reset, store"),
@@ -669,11 +671,11 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.14: A restore takes effect with the next reset.").applies("1011h:01, 1010h:01").needs("reset, store"),
     ]),
     ("objects", &[
-        check("object-communication", objects::communication_read,
+        check("object-communication", |dut| objects::read_all(dut, 0x1000, 0x1FFF),
             "CiA 301 7.5.2: Every object of 1000h to 1FFFh is there, with the size of its type."),
-        check("object-manufacturer", objects::manufacturer_read,
+        check("object-manufacturer", |dut| objects::read_all(dut, 0x2000, 0x5FFF),
             "CiA 306-1: Every object of 2000h to 5FFFh is there, with the size of its type."),
-        check("object-profile", objects::profile_read,
+        check("object-profile", |dut| objects::read_all(dut, 0x6000, 0x9FFF),
             "CiA 306-1: Every object of 6000h to 9FFFh is there, with the size of its type."),
         check("object-read-only", objects::read_only,
             "CiA 306-1: An object that is read only in the EDS cannot be written."),

@@ -60,16 +60,8 @@ pub(super) fn boot_up_after_communication(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-pub(super) fn boot_up_first(dut: &mut Dut<'_>) -> Checked {
-    first_frame(dut, Command::ResetNode)
-}
-
-pub(super) fn boot_up_first_communication(dut: &mut Dut<'_>) -> Checked {
-    first_frame(dut, Command::ResetCommunication)
-}
-
 /// No service before the boot-up message.
-fn first_frame(dut: &mut Dut<'_>, command: Command) -> Checked {
+pub(super) fn first_frame(dut: &mut Dut<'_>, command: Command) -> Checked {
     dut.drain()?;
     let node = dut.node.raw();
     dut.send(Frame::standard(0, &Repr { command, node }.emit()))?;
@@ -352,16 +344,8 @@ pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// Values that were not saved are lost after reset communication.
-pub(super) fn reset_communication_values(dut: &mut Dut<'_>) -> Checked {
-    forgets(dut, Command::ResetCommunication)
-}
-
-pub(super) fn reset_node_values(dut: &mut Dut<'_>) -> Checked {
-    forgets(dut, Command::ResetNode)
-}
-
-fn forgets(dut: &mut Dut<'_>, command: Command) -> Checked {
+/// Values that were not saved are lost after the reset.
+pub(super) fn forgets(dut: &mut Dut<'_>, command: Command) -> Checked {
     let Some((address, bytes)) = another_value(dut)? else {
         return lacks("no parameter of communication can be written");
     };

@@ -7,7 +7,7 @@ use od_wire::nmt::Command;
 
 use super::transfer::{out_of_range, outside};
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, number, request};
 
 /// Returns whether an abort means that an object has no data now, not that it does not exist.
@@ -23,7 +23,7 @@ fn entries(dut: &Dut<'_>, from: u16, to: u16) -> Vec<Entry> {
 }
 
 /// Every readable object exists, with the size of its type.
-fn read_all(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked {
+pub(super) fn read_all(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked {
     let all = entries(dut, from, to);
     for entry in all.iter().filter(|entry| entry.access.readable()) {
         let done = read_one(dut, entry);
@@ -55,18 +55,6 @@ fn read_one(dut: &mut Dut<'_>, entry: &Entry) -> Checked {
         Err(code) if is_empty(code) => Ok(()),
         Err(code) => fail(format!("a value of {name}"), abort_text(code)),
     }
-}
-
-pub(super) fn communication_read(dut: &mut Dut<'_>) -> Checked {
-    read_all(dut, 0x1000, 0x1FFF)
-}
-
-pub(super) fn manufacturer_read(dut: &mut Dut<'_>) -> Checked {
-    read_all(dut, 0x2000, 0x5FFF)
-}
-
-pub(super) fn profile_read(dut: &mut Dut<'_>) -> Checked {
-    read_all(dut, 0x6000, 0x9FFF)
 }
 
 /// A read-only object aborts a write of its own value.
@@ -101,11 +89,7 @@ pub(super) fn write_only(dut: &mut Dut<'_>) -> Checked {
             dut.fault(done)?;
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no object is write only")
-    }
+    at_least_one(any, "no object is write only")
 }
 
 /// A writable object accepts its own value.
@@ -161,11 +145,7 @@ pub(super) fn limits(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no object that can be written has limits")
-    }
+    at_least_one(any, "no object that can be written has limits")
 }
 
 /// A value at its limit is accepted.
@@ -275,11 +255,7 @@ pub(super) fn gaps(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no object of the EDS leaves a sub-index out")
-    }
+    at_least_one(any, "no object of the EDS leaves a sub-index out")
 }
 
 /// Objects of CiA 301 that the EDS lacks do not exist.
@@ -417,11 +393,7 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
             dut.write(address, &before)?;
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no parameter of communication can be changed")
-    }
+    at_least_one(any, "no parameter of communication can be changed")
 }
 
 /// Another value of an object, and its present one.

@@ -9,7 +9,7 @@ use super::mapping::{self, DUMMY, each_refuses, on, raw};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks, skip};
 use crate::conform::sdo::abort_text;
 
 /// Reason to skip a case without the permission.
@@ -470,9 +470,5 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("no RPDO is on whose mapping can be written")
-    }
+    at_least_one(any, "no RPDO is on whose mapping can be written")
 }

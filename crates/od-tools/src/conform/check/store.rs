@@ -51,7 +51,7 @@ pub(super) fn command(dut: &mut Dut<'_>, index: u16, sub: u8, signature: &[u8]) 
     dut.wait(MEMORY)
 }
 
-fn wrong_signature(dut: &mut Dut<'_>, index: u16) -> Checked {
+pub(super) fn wrong_signature(dut: &mut Dut<'_>, index: u16) -> Checked {
     let count = dut.number(index, 0)?.min(127) as u8;
     for sub in 1..=count {
         let address = Address::new(index, sub);
@@ -60,14 +60,6 @@ fn wrong_signature(dut: &mut Dut<'_>, index: u16) -> Checked {
         }
     }
     Ok(())
-}
-
-pub(super) fn save_signature(dut: &mut Dut<'_>) -> Checked {
-    wrong_signature(dut, 0x1010)
-}
-
-pub(super) fn load_signature(dut: &mut Dut<'_>) -> Checked {
-    wrong_signature(dut, 0x1011)
 }
 
 /// 1010h declares whether it saves on command or automatically.

@@ -10,7 +10,7 @@ use super::transmit::{
     sync, timed, typed,
 };
 use crate::conform::dut::{Dut, QUIET};
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::number;
 
 pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
@@ -69,16 +69,8 @@ pub(super) fn event_timer(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-pub(super) fn sync_every(dut: &mut Dut<'_>) -> Checked {
-    sync_each(dut, 1, 5)
-}
-
-pub(super) fn sync_third(dut: &mut Dut<'_>) -> Checked {
-    sync_each(dut, 3, 9)
-}
-
 /// One TPDO with every n-th SYNC, and none without SYNC.
-fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
+pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, kind)?;
     dut.nmt(Command::Start)?;
@@ -538,11 +530,7 @@ pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: [u8; 2]) -> Che
             dut.fault(done)?;
         }
     }
-    if any {
-        Ok(())
-    } else {
-        lacks("the transmission type cannot be written")
-    }
+    at_least_one(any, "the transmission type cannot be written")
 }
 
 /// The inhibit time of a valid TPDO cannot be changed.
