@@ -129,6 +129,6 @@ impl Bus {
     #[wasm_bindgen(js_name = restartController)]
     pub fn restart_controller(&mut self, station: usize) {
         self.journal.rig.bus.restart_controller(station);
-        self.journal.rig.settle();
+        self.journal.rig.collect_frames();
     }
 }

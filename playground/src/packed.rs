@@ -11,7 +11,7 @@
 //! | 16 | eight bytes of data, the unused ones 0 |
 //!
 //! A failed attempt to send a frame has other data: reason (0 unknown, 1 no acknowledge, 2 another
-//! bit rate, 3 reflections, 4 another frame with the same identifier), 1 if its sender went bus-off, the sender's
+//! bit rate, 3 reflections, 4 another frame with the same identifier, 5 short circuit), 1 if its sender went bus-off, the sender's
 //! transmit error counter in two bytes, and the number of failed attempts in four.
 
 use od_runtime::{Frame, Instant};

@@ -60,8 +60,9 @@ impl Filter {
 
 /// At most `N` filters (two or more) that accept all frames that a node listens to.
 ///
-/// Each CAN-ID has a filter of its own while there is room. After that, the two filters are joined
-/// that accept the fewest additional frames. A frame that is not for the node costs only time.
+/// Each CAN-ID has a filter of its own while there is room. After that, two filters become one for
+/// each new CAN-ID: the two whose union accepts the fewest additional frames. A frame that is not
+/// for the node costs only time.
 ///
 /// ```
 /// use od_board::Filters;
@@ -111,8 +112,8 @@ impl<const N: usize> Filters<N> {
         }
     }
 
-    /// Finds the best two to join among all filters and `new`, and returns their positions and the
-    /// joined filter; `None`: `new`.
+    /// Finds the two filters, of all and `new`, whose union accepts the fewest additional frames.
+    /// Returns their positions, `None` for `new`, and the union.
     fn cheapest(&self, new: &Filter) -> Option<(usize, Option<usize>, Filter)> {
         let filters = self.as_slice();
         let pairs = filters.iter().enumerate().flat_map(|(at, first)| {

@@ -101,7 +101,7 @@ impl Wake for Wakes {
 
 impl Executor<'_> {
     /// Runs until the task sleeps. Returns what it sent, and how often it was polled.
-    fn settle(&mut self) -> (Vec<String>, usize) {
+    fn run_until_asleep(&mut self) -> (Vec<String>, usize) {
         let waker = Waker::from(self.wakes.clone());
         let mut polls = 0;
         while self.wakes.0.swap(0, Ordering::Relaxed) > 0 {
@@ -119,7 +119,7 @@ impl Executor<'_> {
     }
 
     fn sends(&mut self) -> Vec<String> {
-        self.settle().0
+        self.run_until_asleep().0
     }
 
     fn receives(&mut self, what: Result<Frame, BusEvent>) {
@@ -132,7 +132,7 @@ impl Executor<'_> {
 
     fn advance(&mut self, millis: u64) -> (Vec<String>, usize) {
         MockDriver::get().advance(Duration::from_millis(millis));
-        self.settle()
+        self.run_until_asleep()
     }
 }
 
@@ -193,7 +193,7 @@ fn a_change_from_another_task_sends_its_tpdo_at_once() {
             })
         });
         assert_eq!(executor.sends(), ["181#6200"]);
-        assert_eq!(executor.settle(), (vec![], 0));
+        assert_eq!(executor.run_until_asleep(), (vec![], 0));
     });
 }
 

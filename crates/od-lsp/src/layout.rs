@@ -10,7 +10,6 @@ pub(crate) const fn bytes(span: Span) -> Range<usize> {
     span.start as usize..span.end as usize
 }
 
-/// A section.
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
     /// Its subject.
@@ -68,7 +67,6 @@ pub(crate) enum Spot<'a> {
 }
 
 impl<'a> Spot<'a> {
-    /// The section.
     pub(crate) const fn section(self) -> &'a Section {
         match self {
             Self::Header(section) | Self::Key(section, _) | Self::Value(section, _) => section,

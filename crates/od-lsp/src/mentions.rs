@@ -112,7 +112,6 @@ fn digits(text: &str, bytes: &Range<usize>, before: usize) -> Option<Range<usize
     is_plain.then(|| bytes.start + 2..bytes.start + 6)
 }
 
-/// The mention in a header.
 pub(crate) fn header(text: &str, section: &Section) -> Option<Mention> {
     let index = section.index().or_else(|| links(text, section))?;
     let sub = match section.place {
@@ -127,7 +126,6 @@ pub(crate) fn header(text: &str, section: &Section) -> Option<Mention> {
     })
 }
 
-/// The mention in a value.
 pub(crate) fn value(text: &str, section: &Section, pair: &Pair) -> Option<Mention> {
     let bytes = plain(text, pair);
     if let Some(index) = listed(text, section, pair) {

@@ -129,7 +129,6 @@ pub(crate) fn refusal(id: &Value, error: &Fault) -> String {
     })
 }
 
-/// A notification.
 pub(crate) fn notification(method: &str, params: &impl Serialize) -> String {
     written(&Call {
         jsonrpc: "2.0",

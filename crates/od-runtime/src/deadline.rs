@@ -33,7 +33,6 @@ impl Deadline {
         self.0 != 0
     }
 
-    /// Returns whether it is due at `now`.
     pub(crate) const fn is_due(self, now: Instant) -> bool {
         is_due(self.0, now.as_micros())
     }

@@ -48,7 +48,6 @@ fn key(id: CanId, is_remote: bool) -> u32 {
 }
 
 impl Listener {
-    /// The CAN-ID.
     pub(crate) fn id(&self) -> CanId {
         if self.key & EXTENDED != 0 {
             CanId::extended(self.key & !(EXTENDED | REMOTE))
@@ -66,7 +65,6 @@ pub(crate) struct Table<'t> {
 }
 
 impl Table<'_> {
-    /// Adds a service, if it has a CAN-ID.
     pub(crate) fn add(&mut self, id: Option<CanId>, is_remote: bool, service: Service) {
         let Some(id) = id else { return };
         let key = key(id, is_remote);

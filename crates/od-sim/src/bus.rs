@@ -79,7 +79,7 @@ impl Bus {
         if let Some(other) = beside {
             self.turn_along(other);
         }
-        self.settle(added);
+        self.pass_on(added);
         added
     }
 
@@ -103,7 +103,7 @@ impl Bus {
         self.wiring.separate(place);
         self.cut_wires_of(place);
         self.line.restart(place + 1);
-        self.settle(place);
+        self.pass_on(place);
         true
     }
 
@@ -163,7 +163,7 @@ impl Bus {
         };
         for other in self.wiring.beside(device) {
             self.devices[other].put_on_shaft(&shaft, self.now);
-            self.settle(other);
+            self.pass_on(other);
         }
     }
 
@@ -228,13 +228,13 @@ impl Bus {
         if !one.is_powered() {
             self.line.medium.forget(device + 1);
         }
-        self.settle(device);
+        self.pass_on(device);
         if turned {
             self.turn_along(device);
         }
-        self.conduct();
-        self.tell_controllers();
-        self.attend();
+        self.follow_wires();
+        self.report_controllers();
+        self.run_master();
     }
 
     /// Sends a frame from outside. On an ideal line every device receives it, and the responses of
@@ -249,8 +249,8 @@ impl Bus {
             return false;
         }
         self.hand_over(frame);
-        self.conduct();
-        self.attend();
+        self.follow_wires();
+        self.run_master();
         true
     }
 
@@ -259,7 +259,7 @@ impl Bus {
         for device in 0..self.devices.len() {
             if self.hears_outside(device) && self.line.is_plugged(device + 1) {
                 self.devices[device].handle_frame(self.now, frame);
-                self.settle(device);
+                self.pass_on(device);
             }
         }
     }
@@ -282,13 +282,13 @@ impl Bus {
     }
 
     /// Tells devices whose controllers changed their state.
-    fn tell_controllers(&mut self) {
+    fn report_controllers(&mut self) {
         while let Some((station, event)) = self.line.poll_event() {
             let Some(device) = station.checked_sub(1).filter(|at| *at < self.devices.len()) else {
                 continue;
             };
             self.devices[device].handle_bus(event, self.now);
-            self.settle(device);
+            self.pass_on(device);
         }
     }
 
@@ -304,17 +304,18 @@ impl Bus {
 
     /// Meets the next deadline up to `to`; without one the time becomes `to`.
     fn step(&mut self, to: Instant) -> bool {
-        let goes_on = self.step_without_wires(to);
-        self.conduct();
-        self.attend();
+        let goes_on = self.meet_next(to);
+        self.follow_wires();
+        self.run_master();
         goes_on
     }
 
-    fn step_without_wires(&mut self, to: Instant) -> bool {
+    /// As `step`, without the effects over wires and those on the master.
+    fn meet_next(&mut self, to: Instant) -> bool {
         let due = (0..self.devices.len())
             .filter_map(|device| Some((self.deadline(device)?, device)))
             .min();
-        // `attend` does the work of the master at this moment.
+        // `run_master` does the work of the master at this moment.
         if let Some(at) = self.master_due()
             && at <= to
             && due.is_none_or(|(first, _)| at < first)
@@ -328,7 +329,7 @@ impl Bus {
             && due.is_none_or(|(first, _)| at <= first)
         {
             self.now = self.now.max(at);
-            self.carry();
+            self.run_line();
             return true;
         }
         if let Some((at, device)) = self.line.next_recovery()
@@ -352,8 +353,8 @@ impl Bus {
     fn meet(&mut self, device: usize, met: u32, to: Instant) -> bool {
         for _ in met..STUCK {
             self.devices[device].handle_timeout(self.now);
-            self.settle(device);
-            self.tell_controllers();
+            self.pass_on(device);
+            self.report_controllers();
             match self.deadline(device) {
                 Some(again) if again <= self.now => {}
                 _ => return true,
@@ -372,14 +373,14 @@ impl Bus {
         });
         self.line.recover(device, begins);
         if begins {
-            self.settle(device);
-            self.tell_controllers();
+            self.pass_on(device);
+            self.report_controllers();
         }
     }
 
     /// Collects the frames of a device and passes them to the others, whose responses follow in the
     /// same way.
-    fn settle(&mut self, device: usize) {
+    fn pass_on(&mut self, device: usize) {
         if self.line.is_real() {
             return self.load(device, self.now);
         }
@@ -444,7 +445,7 @@ impl Bus {
 
     fn tell_master(&mut self, _: &Frame) {}
 
-    fn attend(&mut self) {}
+    fn run_master(&mut self) {}
 
     #[cfg(feature = "serve")]
     pub(crate) fn take_of_master(&mut self, _: &Frame) -> bool {

@@ -24,9 +24,11 @@ pub struct Mirror<const N: usize, const V: usize> {
     job: Option<image::Job>,
     /// Range of the newest set, if it is known.
     newest: Option<Range<usize>>,
-    /// Number of saves and writes; its value for the newest set, and for the stored set.
+    /// Number of saves and writes so far.
     changes: u32,
+    /// `changes` when the newest set was made.
     made: u32,
+    /// `changes` of the set that is in the flash.
     kept: u32,
     failed: bool,
     /// Reason why the stored set could not be loaded.
@@ -143,7 +145,7 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         };
     }
 
-    /// Returns whether a change waits to be stored.
+    /// Counts a change, and wakes the task that stores it.
     fn change(&mut self) {
         self.changes = self.changes.wrapping_add(1);
         if let Some(waker) = self.waker.take() {

@@ -104,7 +104,7 @@ impl Lane {
             Some((_, Transfer::Download(download))) => download.handle_frame(now, frame),
             None => return,
         }
-        self.settle(now, out, events);
+        self.end_if_complete(now, out, events);
     }
 
     pub(super) fn handle_timeout(
@@ -118,7 +118,7 @@ impl Lane {
             Some((_, Transfer::Download(download))) => download.handle_timeout(now),
             None => return,
         }
-        self.settle(now, out, events);
+        self.end_if_complete(now, out, events);
     }
 
     pub(super) fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
@@ -157,7 +157,7 @@ impl Lane {
 
     /// Ends a completed transfer. Its remaining frames are sent before those of the next
     /// one.
-    fn settle(&mut self, now: Instant, out: &mut VecDeque<Frame>, events: &mut Events) {
+    fn end_if_complete(&mut self, now: Instant, out: &mut VecDeque<Frame>, events: &mut Events) {
         let Some((job, transfer)) = &mut self.active else {
             return;
         };

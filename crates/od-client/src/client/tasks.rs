@@ -43,17 +43,17 @@ impl Tasks {
 
     pub(super) fn handle_frame(&mut self, now: Instant, frame: &Frame, events: &mut Events) {
         self.master.handle_frame(now, frame);
-        self.settle(events);
+        self.end_if_complete(events);
     }
 
     pub(super) fn handle_timeout(&mut self, now: Instant, events: &mut Events) {
         self.master.handle_timeout(now);
-        self.settle(events);
+        self.end_if_complete(events);
     }
 
     pub(super) fn poll_transmit(&mut self, now: Instant, events: &mut Events) -> Option<Frame> {
         let frame = self.master.poll_transmit(now);
-        self.settle(events);
+        self.end_if_complete(events);
         frame
     }
 
@@ -70,7 +70,8 @@ impl Tasks {
         }
     }
 
-    fn settle(&mut self, events: &mut Events) {
+    /// Ends a task that has its answer, and begins the next one.
+    fn end_if_complete(&mut self, events: &mut Events) {
         if let Some(job) = self.active
             && let Some(answer) = self.master.poll_answer()
         {

@@ -85,7 +85,6 @@ pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
     WorkspaceEdit::of(&file.uri, edits)
 }
 
-/// The fix of a finding.
 fn fixed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     let fix = finding.fix.as_ref()?;
     let edits = fix

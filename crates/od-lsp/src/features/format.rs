@@ -133,7 +133,7 @@ impl Comments {
             put(std::mem::take(&mut self.top), &mut out);
             out.push('\n');
         }
-        self.settle(plain);
+        self.find_places(plain);
         let mut section = String::new();
         for line in plain.lines() {
             if let Some(name) = header(line) {
@@ -160,7 +160,7 @@ impl Comments {
 
     /// Finds another place for comments of sections and keys that the canonical form lacks:
     /// below the header of their section or object, otherwise at the end.
-    fn settle(&mut self, plain: &str) {
+    fn find_places(&mut self, plain: &str) {
         let mut keys: BTreeSet<(String, Option<String>)> = BTreeSet::new();
         let mut section = String::new();
         for line in plain.lines() {

@@ -6,7 +6,6 @@ use od_eds::patch::{Action, Target};
 
 use crate::macros::scan::{Kind, Token, tokens};
 
-/// A call.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Call {
     /// The bytes between its braces.
@@ -34,7 +33,6 @@ pub(crate) struct Statement {
     pub(crate) variant: Option<usize>,
 }
 
-/// The calls of a source.
 pub(crate) fn all(source: &str) -> Vec<Call> {
     // Most sources contain no call.
     if !source.contains("object_dictionary") {

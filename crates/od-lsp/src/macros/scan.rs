@@ -15,7 +15,6 @@ pub(crate) enum Kind {
     Sign(u8),
 }
 
-/// A token.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Token {
     pub(crate) kind: Kind,

@@ -287,7 +287,6 @@ fn sensed_bits(fault: Fault, reports: &[Report]) -> u32 {
     bit(fault) | if unknown { NO_ANGLE } else { 0 }
 }
 
-/// Returns the bit of a fault.
 const fn bit(fault: Fault) -> u32 {
     1 << fault as u32
 }

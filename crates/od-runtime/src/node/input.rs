@@ -13,7 +13,6 @@ use crate::emcy::{PDO_LENGTH, RPDO_TIMEOUT, SYNC_LENGTH};
 use crate::listening::Service;
 use crate::lss::{self, Action};
 use crate::objects::Objects;
-use crate::pdo::Received;
 use crate::rooms::{Rooms, Slices};
 use crate::storage::Storage;
 
@@ -308,12 +307,13 @@ impl<D: Device> Machines<D> {
             if pdo.received_by() != Some(frame.id()) {
                 continue;
             }
-            match pdo.receive(objects, rooms.mapped, frame) {
-                Received::Taken => self.end_error(objects, PDO_LENGTH),
-                Received::TooShort => objects
+            if pdo.receive(objects, rooms.mapped, frame) {
+                self.end_error(objects, PDO_LENGTH);
+            } else {
+                objects
                     .outbox
                     .signals
-                    .raise(communication_error(PDO_LENGTH)),
+                    .raise(communication_error(PDO_LENGTH));
             }
         }
         // The error ends when all RPDOs that were late have arrived again.

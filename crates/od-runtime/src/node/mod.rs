@@ -370,7 +370,6 @@ impl<D: Device> Machines<D> {
         self.unconfigured && !self.boot_at.is_set() && self.mute.is_none()
     }
 
-    /// The EMCY producer.
     fn emcy(&mut self) -> emcy::Producer<'_> {
         let rooms = self.rooms.all_mut();
         emcy::Producer {

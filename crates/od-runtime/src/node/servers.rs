@@ -13,7 +13,7 @@ use crate::sdo::Server;
 const FURTHER: u16 = 0x1201;
 
 /// Abort code for a value that another server streams.
-const TAKEN: AbortCode = AbortCode::DeviceState;
+const STREAMED: AbortCode = AbortCode::DeviceState;
 
 impl<D: Device> Machines<D> {
     /// Returns a server by its position, with its buffer.
@@ -89,7 +89,7 @@ impl<D: Device> Machines<D> {
         let data = frame.bytes();
         if self.is_streamed(data, at) {
             if let Some(mut server) = self.server(at) {
-                let abort = server.refuse(objects, address(data), TAKEN);
+                let abort = server.refuse(objects, address(data), STREAMED);
                 self.respond(at, Some(abort));
             }
             return;

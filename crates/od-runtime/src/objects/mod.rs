@@ -66,7 +66,6 @@ impl<'c, D: Services> Objects<'c, D> {
         self.store.word(index, 0, 0) & bits != 0
     }
 
-    /// Calls the application with its context.
     #[inline]
     pub(crate) fn application<R>(
         &mut self,
@@ -104,7 +103,7 @@ impl<'c, D: Services> Objects<'c, D> {
         Ok(self.store.value(row, number))
     }
 
-    /// Returns whether a value can be read from the store although it is not a plain number.
+    /// Checks a value that is not a plain number: it is readable, and the application does not stream it.
     fn check_special(&mut self, row: &Row) -> Result<(), Unread> {
         if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));

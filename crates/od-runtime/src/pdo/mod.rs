@@ -5,7 +5,6 @@ mod rpdo;
 mod tpdo;
 
 pub use mapping::Mapped;
-pub(crate) use rpdo::Received;
 pub use rpdo::Rpdo;
 pub use tpdo::Tpdo;
 

@@ -27,15 +27,6 @@ pub struct Rpdo {
     is_late: bool,
 }
 
-/// Result of a frame.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Received {
-    /// The frame was processed, or waits for SYNC.
-    Taken,
-    /// The frame is shorter than the mapping: EMCY 8210h.
-    TooShort,
-}
-
 impl Blank for Rpdo {
     const BLANK: Self = Self {
         valid: false,
@@ -92,15 +83,16 @@ impl Rpdo {
         self.valid.then(|| self.cob_id.can_id())
     }
 
-    /// Receives a frame.
+    /// Writes the values of a frame, at once or with the next SYNC. Returns whether the frame is as long as the
+    /// mapping; a shorter one writes nothing (EMCY 8210h).
     pub(crate) fn receive<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
         mapped: &[Mapped],
         frame: &Frame,
-    ) -> Received {
+    ) -> bool {
         if frame.dlc() < self.mapping.len() {
-            return Received::TooShort;
+            return false;
         }
         if D::DEADLINES && self.event_ms > 0 {
             self.late_at = Deadline::at(objects.now.plus_millis(self.event_ms.into()));
@@ -111,7 +103,7 @@ impl Rpdo {
         } else {
             self.mapping.apply(objects, mapped, *frame.bytes());
         }
-        Received::Taken
+        true
     }
 
     /// Handles SYNC: processes a frame that waits.

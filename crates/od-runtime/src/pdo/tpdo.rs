@@ -239,7 +239,7 @@ impl Tpdo {
             self.syncs += 1;
             if self.syncs >= cycle {
                 self.syncs = 0;
-                self.due(objects, mapped);
+                self.mark_due(objects, mapped);
             }
         } else if kind.is_rtr_only() && kind.is_sampled_at_sync() {
             self.last = self.mapping.sample(objects, mapped);
@@ -248,7 +248,7 @@ impl Tpdo {
     }
 
     /// Marks a cyclic transmission as pending, unless the repeat counter forbids it.
-    fn due<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
+    fn mark_due<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         if self.config.repeat != 0 {
             let data = self.mapping.sample(objects, mapped);
             if data != self.last {
@@ -272,7 +272,7 @@ impl Tpdo {
         if self.event_at.is_due(objects.now) {
             self.event_at = self.event_at.next_period(self.config.event, objects.now);
             self.by_timer = !self.pending;
-            self.due(objects, mapped);
+            self.mark_due(objects, mapped);
         }
     }
 

@@ -247,7 +247,6 @@ impl Stop {
 }
 
 impl<'s, D: Services> Server<'s, D> {
-    /// The server with its buffer.
     pub(crate) fn new(server: &'s mut SdoServer, buffer: &'s mut [u8]) -> Self {
         Self {
             device: PhantomData,
@@ -282,12 +281,12 @@ impl<'s, D: Services> Server<'s, D> {
         if dlc < objects.profile.sdo.min_dlc {
             return None;
         }
-        // Most requests are uploads while no other transfer is in progress.
+        // The short way: most requests are uploads while no other transfer is in progress.
         let is_busy = self.state.takes_anything() || self.streams() || self.is_in_block();
         if data[0] >> 5 == 2 && !is_busy {
             self.handle_upload(objects, data, dlc)
         } else {
-            self.handle_other(objects, data, dlc)
+            self.handle_by_state(objects, data, dlc)
         }
     }
 
@@ -308,8 +307,8 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Handles any other request.
-    fn handle_other(
+    /// Handles a frame whose meaning depends on the transfer in progress, and each request that does not begin an upload.
+    fn handle_by_state(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
@@ -320,7 +319,7 @@ impl<'s, D: Services> Server<'s, D> {
             if D::STREAMS && data[0] == ABORT && self.state.late.awaits_stream() {
                 let answer = self.request(objects, data, dlc);
                 self.state.late = Late::BLANK;
-                self.settle(objects, answer, data, dlc);
+                self.end_request(objects, answer, data, dlc);
             }
             return None;
         }
@@ -336,11 +335,11 @@ impl<'s, D: Services> Server<'s, D> {
             }
             _ => self.request(objects, data, dlc),
         };
-        self.settle(objects, answer, data, dlc)
+        self.end_request(objects, answer, data, dlc)
     }
 
     /// Ends the handling of a request: returns the response, and sets the next deadline.
-    fn settle(
+    fn end_request(
         &mut self,
         objects: &mut Objects<'_, D>,
         answer: Answer,
@@ -432,7 +431,7 @@ impl<'s, D: Services> Server<'s, D> {
             return None;
         }
         let answer = self.stream_upload(objects);
-        self.settle(objects, answer, data, dlc)
+        self.end_request(objects, answer, data, dlc)
     }
 
     fn abort(&mut self, objects: &mut Objects<'_, D>, code: AbortCode) -> [u8; 8] {

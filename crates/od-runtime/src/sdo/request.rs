@@ -15,6 +15,7 @@ use crate::services::Services;
 use od_model::row::Row;
 
 impl<D: Services> Server<'_, D> {
+    /// Handles a request by its command specifier.
     #[inline]
     pub(super) fn request(
         &mut self,

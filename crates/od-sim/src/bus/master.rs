@@ -25,7 +25,7 @@ impl Bus {
         let now = self.now;
         let master = self.master.get_or_insert_default();
         master.order(now, order)?;
-        self.attend();
+        self.run_master();
         Ok(())
     }
 
@@ -62,7 +62,7 @@ impl Bus {
     }
 
     /// The master does what is due at this moment, and sends its frames.
-    pub(super) fn attend(&mut self) {
+    pub(super) fn run_master(&mut self) {
         // A master and a node that answer each other for ever would stop time.
         for _ in 0..STUCK {
             let Some(master) = &mut self.master else {

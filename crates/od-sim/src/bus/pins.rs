@@ -36,12 +36,12 @@ impl Bus {
             to,
             last: None,
         });
-        self.conduct();
+        self.follow_wires();
         Ok(())
     }
 
     /// Passes the values that changed at the first end of each wire to its second end.
-    pub(super) fn conduct(&mut self) {
+    pub(super) fn follow_wires(&mut self) {
         if self.wires.is_empty() {
             return;
         }
@@ -56,7 +56,7 @@ impl Bus {
                 }
                 self.wires[at].last = Some(value);
                 self.devices[to.0].set_pin(to.1, value, self.now);
-                self.settle(to.0);
+                self.pass_on(to.0);
                 is_changed = true;
             }
             if !is_changed {

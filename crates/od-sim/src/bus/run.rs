@@ -17,7 +17,7 @@ impl Bus {
     /// [polled](Self::poll).
     pub(crate) fn advance_until_full(&mut self, to: Instant, frames: usize) -> bool {
         while self.sent.len() < frames {
-            let goes_on = match self.run(to, frames) {
+            let goes_on = match self.run_alone(to, frames) {
                 Some(goes_on) => goes_on,
                 None => self.step(to),
             };
@@ -30,7 +30,7 @@ impl Bus {
 
     /// Meets many deadlines at once for the only device on an ideal line. Returns the same as
     /// `step`; `None` if there are other devices, or an observer waits for frames.
-    fn run(&mut self, to: Instant, frames: usize) -> Option<bool> {
+    fn run_alone(&mut self, to: Instant, frames: usize) -> Option<bool> {
         if self.has_master() {
             return None;
         }

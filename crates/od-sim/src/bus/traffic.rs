@@ -125,13 +125,13 @@ impl Bus {
     }
 
     /// Handles the events of the line at this time.
-    pub(super) fn carry(&mut self) {
+    pub(super) fn run_line(&mut self) {
         while let Some(due) = self.line.medium.take(self.now) {
             match due {
                 Due::Start(starters) => self.start_frames(starters),
                 Due::End(ended) => self.end(ended),
             }
-            self.tell_controllers();
+            self.report_controllers();
         }
     }
 

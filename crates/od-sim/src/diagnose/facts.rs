@@ -217,7 +217,7 @@ impl<'a> Facts<'a> {
         }
         facts.rate = facts.rate.or_else(|| estimated(&lengths));
         for node in facts.nodes.values_mut() {
-            node.period = middle(&node.beats);
+            node.period = median_interval(&node.beats);
         }
         facts
     }
@@ -437,7 +437,7 @@ fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
 }
 
 /// The median gap in microseconds; 0 without gaps.
-pub(super) fn middle(all: &[Seen]) -> u64 {
+pub(super) fn median_interval(all: &[Seen]) -> u64 {
     let mut gaps: Vec<u64> = all
         .windows(2)
         .map(|pair| pair[1].at.micros_since(pair[0].at))
@@ -453,7 +453,7 @@ pub(super) fn is_interleaved(all: &[Seen]) -> bool {
         return false;
     }
     let seconds: Vec<Seen> = all.iter().step_by(2).copied().collect();
-    let period = middle(&seconds);
+    let period = median_interval(&seconds);
     let is_off = |gap: u64, wanted: u64| gap.abs_diff(wanted) * 20 > wanted;
     let steady = all
         .windows(3)

@@ -3,9 +3,6 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::Refused;
-use od_runtime::NodeId;
-
 use super::collection::{Case, Cause, Collection};
 use super::probe::{Nodes, Probe, Reading};
 use super::sight::{Language, Sight};
@@ -272,7 +269,7 @@ impl<'c> Trial<'c> {
             let line = block.line;
             self.run(&Block { line, text }, &mut bench, host)?;
         }
-        settle(&mut bench, QUIET);
+        let_pass(&mut bench, QUIET);
         let devices = bench.bus.devices();
         let labels = bench.labels.iter().zip(devices);
         let node = |(label, device): (&Option<String>, &VirtualDevice)| {
@@ -291,7 +288,7 @@ impl<'c> Trial<'c> {
     ) -> Result<Bench, Problem> {
         let mut bench = healthy.clone();
         self.run(&cause.fault, &mut bench, host)?;
-        settle(&mut bench, SETTLE);
+        let_pass(&mut bench, SETTLE);
         Ok(bench)
     }
 
@@ -331,7 +328,7 @@ impl<'c> Trial<'c> {
 }
 
 /// Lets time pass; frames of that time are not part of a reading.
-fn settle(bench: &mut Bench, micros: u64) {
+fn let_pass(bench: &mut Bench, micros: u64) {
     let end = bench.bus.now().plus_micros(micros);
     bench.bus.advance(end);
     while bench.bus.poll().is_some() {}
@@ -347,14 +344,6 @@ struct Seeded<'h> {
 impl Host for Seeded<'_> {
     fn inner(&mut self) -> Option<&mut dyn Host> {
         Some(self.host)
-    }
-
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, Refused> {
-        self.host.device(name, node_id)
     }
 
     fn seed(&mut self) -> u64 {

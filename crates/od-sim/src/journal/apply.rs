@@ -139,7 +139,7 @@ impl Journal {
             Input::Plug { station, on } => rig.bus.line.set_plugged(station.into(), on),
             Input::Restart { station } => {
                 rig.bus.restart_controller(station.into());
-                rig.settle();
+                rig.collect_frames();
             }
             Input::Cut { node, bytes } => {
                 let cut = |device: &mut VirtualDevice, _| device.cut_power_after(bytes as usize);

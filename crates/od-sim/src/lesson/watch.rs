@@ -1,13 +1,11 @@
 //! Runs a script, or lets time pass, while a lesson watches.
 
-use od_model::Refused;
 use std::prelude::v1::*;
 
-use od_runtime::{Frame, Instant, NodeId};
+use od_runtime::{Frame, Instant};
 
 use super::progress::Progress;
 use crate::bus::Bus;
-use crate::device::VirtualDevice;
 use crate::script::{Host, Origin};
 
 /// A host that passes all frames to a lesson, too.
@@ -21,14 +19,6 @@ pub struct Watched<'a> {
 impl Host for Watched<'_> {
     fn inner(&mut self) -> Option<&mut dyn Host> {
         Some(self.host)
-    }
-
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, Refused> {
-        self.host.device(name, node_id)
     }
 
     /// A learner sees a response before the next step.

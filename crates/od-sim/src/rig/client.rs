@@ -38,7 +38,7 @@ impl Outcome {
 
 /// The client, its frames, and its open transfers.
 #[derive(Debug)]
-pub(super) struct Asker {
+pub(super) struct SdoClient {
     client: Client,
     requests: VecDeque<Frame>,
     /// Open transfers, with their numbers.
@@ -46,7 +46,7 @@ pub(super) struct Asker {
     count: u32,
 }
 
-impl Default for Asker {
+impl Default for SdoClient {
     fn default() -> Self {
         let mut options = Options::SEGMENTED;
         options.timeout = Duration::from_millis(500);
@@ -59,7 +59,7 @@ impl Default for Asker {
     }
 }
 
-impl Asker {
+impl SdoClient {
     /// Starts a transfer; with bytes it is a write.
     pub(super) fn ask(
         &mut self,

@@ -59,7 +59,7 @@ impl Rig {
 
     fn start(&mut self, device: usize) {
         self.bus.start(device);
-        self.settle();
+        self.collect_frames();
     }
 
     /// Removes a device from the bus; the numbers of later devices decrease by one.

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use od_model::Refused;
 use od_wire::Instant;
 
-use super::{LineEvent, Rig, Taken};
+use super::{LessonRun, LineEvent, Rig};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
@@ -39,21 +39,21 @@ impl Rig {
         self.bus = std::mem::take(&mut names.bus);
         self.clockwork = Clockwork::default();
         self.seen.clear();
-        self.outcomes.extend(self.asker.give_up());
-        self.taken = Some(Taken { progress, names });
+        self.outcomes.extend(self.client.give_up());
+        self.lesson = Some(LessonRun { progress, names });
         Ok(lesson)
     }
 
     /// Ends the lesson; the devices stay on the bus.
     pub fn end_lesson(&mut self) {
-        self.taken = None;
+        self.lesson = None;
     }
 
     /// The lesson in progress, and its bus.
     pub fn lesson(&mut self) -> Option<(&mut Progress, &mut Bus)> {
-        self.look();
-        let taken = self.taken.as_mut()?;
-        Some((&mut taken.progress, &mut self.bus))
+        self.check_lesson();
+        let run = self.lesson.as_mut()?;
+        Some((&mut run.progress, &mut self.bus))
     }
 
     /// Runs lines of a script, such as the solution of a step; time passes as the lines say.
@@ -76,15 +76,15 @@ impl Rig {
             seen.push(LineEvent::Frame { at, device, frame });
         };
         let mut recorder = Recorder { host, record };
-        let (result, bus) = match &mut self.taken {
-            Some(taken) => {
-                taken.names.bus = bus;
+        let (result, bus) = match &mut self.lesson {
+            Some(run) => {
+                run.names.bus = bus;
                 let mut watched = Watched {
                     host: &mut recorder,
-                    progress: &mut taken.progress,
+                    progress: &mut run.progress,
                 };
-                let result = run_on(&script, &mut taken.names, &mut watched);
-                (result, std::mem::take(&mut taken.names.bus))
+                let result = run_on(&script, &mut run.names, &mut watched);
+                (result, std::mem::take(&mut run.names.bus))
             }
             None => {
                 let mut bench = Bench::new(bus);
@@ -93,12 +93,12 @@ impl Rig {
             }
         };
         self.bus = bus;
-        self.settle();
+        self.collect_frames();
         result.map(|_| ()).map_err(|stop| stop.to_string().into())
     }
 
     /// Passes a transmitted frame to the lesson. A frame from a link counts as that of a device.
-    pub(super) fn watched(&mut self, seen: &LineEvent) {
+    pub(super) fn show_lesson(&mut self, seen: &LineEvent) {
         let (at, origin, frame) = match *seen {
             LineEvent::Frame { at, device, frame } => {
                 (at, device.map_or(Origin::Script, Origin::Device), frame)
@@ -108,34 +108,34 @@ impl Rig {
             }
             LineEvent::Disturbed(..) => return,
         };
-        if let Some(taken) = &mut self.taken {
-            taken.progress.frame(at, origin, &frame);
-            taken.progress.look(&mut self.bus);
+        if let Some(run) = &mut self.lesson {
+            run.progress.frame(at, origin, &frame);
+            run.progress.look(&mut self.bus);
         }
     }
 
     /// Passes a disturbed frame to the lesson.
-    pub(super) fn lost(&mut self, at: Instant) {
-        if let Some(taken) = &mut self.taken {
-            taken.progress.disturbed(at);
+    pub(super) fn show_lesson_disturbance(&mut self, at: Instant) {
+        if let Some(run) = &mut self.lesson {
+            run.progress.disturbed(at);
         }
     }
 
     /// Lets the lesson check its conditions again.
-    pub(super) fn look(&mut self) {
-        if let Some(taken) = &mut self.taken {
-            taken.progress.look(&mut self.bus);
+    pub(super) fn check_lesson(&mut self) {
+        if let Some(run) = &mut self.lesson {
+            run.progress.look(&mut self.bus);
         }
     }
 
     /// Returns whether a lesson is in progress.
-    pub(super) fn has_pupil(&self) -> bool {
-        self.taken.is_some()
+    pub(super) fn has_lesson(&self) -> bool {
+        self.lesson.is_some()
     }
 
     /// Number of reached checkpoints.
     pub(super) fn reached(&self) -> usize {
-        let taken = self.taken.as_ref();
-        taken.map_or(0, |taken| taken.progress.reached().len())
+        let run = self.lesson.as_ref();
+        run.map_or(0, |run| run.progress.reached().len())
     }
 }

@@ -15,7 +15,7 @@ use std::prelude::v1::*;
 use od_model::Address;
 use od_wire::{Frame, Instant, NodeId};
 
-use self::client::Asker;
+use self::client::SdoClient;
 use self::clockwork::{Clockwork, Tick};
 #[cfg(feature = "lessons")]
 use crate::bench::Bench;
@@ -55,11 +55,11 @@ pub enum LineEvent {
 /// A bus with its profiles, cyclic frames, SDO client and lesson.
 #[derive(Default)]
 pub struct Rig {
-    /// The bus. [`settle`](Self::settle) records the frames that devices send because of a change.
+    /// The bus. [`collect_frames`](Self::collect_frames) records the frames that devices send because of a change.
     pub bus: Bus,
     clockwork: Clockwork,
     seen: Vec<LineEvent>,
-    asker: Asker,
+    client: SdoClient,
     outcomes: VecDeque<Outcome>,
     /// Whether new devices describe nodes of a real bus.
     #[cfg(feature = "real")]
@@ -69,7 +69,7 @@ pub struct Rig {
     port: Option<Port>,
     /// The lesson in progress.
     #[cfg(feature = "lessons")]
-    taken: Option<Taken>,
+    lesson: Option<LessonRun>,
 }
 
 #[cfg(feature = "real")]
@@ -86,7 +86,7 @@ struct Port {
 
 #[cfg(feature = "lessons")]
 /// A lesson in progress, and the names that its set-up gave the devices.
-struct Taken {
+struct LessonRun {
     progress: Progress,
     /// The bench without its bus, which belongs to the rig.
     names: Bench,
@@ -102,36 +102,36 @@ impl Rig {
 
     /// Removes everything from the bus and starts at time 0 again. Open transfers end.
     pub fn clear(&mut self) {
-        self.outcomes.extend(self.asker.give_up());
+        self.outcomes.extend(self.client.give_up());
         let Self {
-            asker, outcomes, ..
+            client, outcomes, ..
         } = std::mem::take(self);
-        (self.asker, self.outcomes) = (asker, outcomes);
+        (self.client, self.outcomes) = (client, outcomes);
     }
 
     /// Takes the SDO client of a replaced bench, and ends its transfers.
     pub(crate) fn take_client(&mut self, before: &mut Self) {
         before.clear();
-        std::mem::swap(&mut self.asker, &mut before.asker);
+        std::mem::swap(&mut self.client, &mut before.client);
         std::mem::swap(&mut self.outcomes, &mut before.outcomes);
     }
 
     /// Sends a frame from outside.
     pub fn send(&mut self, frame: &Frame) {
-        if !self.passes(frame) {
+        if !self.offer_to_link(frame) {
             return;
         }
         let now = self.bus.now();
         let came_through = self.bus.receive(frame);
-        self.settle_line();
+        self.collect_disturbances();
         if came_through {
-            self.saw(LineEvent::Frame {
+            self.record(LineEvent::Frame {
                 at: now,
                 device: None,
                 frame: *frame,
             });
         }
-        self.settle();
+        self.collect_frames();
     }
 
     /// Calls a function with a device, and collects its frames; `None` if the device does not exist.
@@ -141,7 +141,7 @@ impl Rig {
         act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
     ) -> Option<R> {
         let result = self.bus.with(device, act);
-        self.settle();
+        self.collect_frames();
         result
     }
 
@@ -166,22 +166,22 @@ impl Rig {
     /// Starts to read an object over the bus; the returned number is that of the [`Outcome`]. The
     /// client waits 500 ms for a response. [`request`](Self::request) returns its frames.
     pub fn read(&mut self, node: NodeId, address: Address) -> u32 {
-        self.asker.ask(self.bus.now(), node, address, None)
+        self.client.ask(self.bus.now(), node, address, None)
     }
 
     /// Starts to write an object, as [`read`](Self::read).
     pub fn write(&mut self, node: NodeId, address: Address, bytes: &[u8]) -> u32 {
-        self.asker.ask(self.bus.now(), node, address, Some(bytes))
+        self.client.ask(self.bus.now(), node, address, Some(bytes))
     }
 
     /// Returns the next frame of the SDO client, for [`send`](Self::send).
     pub fn request(&mut self) -> Option<Frame> {
-        self.asker.request()
+        self.client.request()
     }
 
     /// Returns the next finished transfer.
     pub fn outcome(&mut self) -> Option<Outcome> {
-        self.outcomes.pop_front().or_else(|| self.asker.poll())
+        self.outcomes.pop_front().or_else(|| self.client.poll())
     }
 
     /// Advances the time to `to`. Returns earlier if `full` items wait to be drained, a checkpoint of the lesson
@@ -192,8 +192,8 @@ impl Rig {
             let now = self.bus.now();
             // A request comes after all other events of its moment, so that a repeated run
             // is the same.
-            let overdue = self.asker.poll_timeout().filter(|due| *due <= to);
-            let to = if self.asker.has_request() {
+            let overdue = self.client.poll_timeout().filter(|due| *due <= to);
+            let to = if self.client.has_request() {
                 now
             } else {
                 overdue.unwrap_or(to)
@@ -207,15 +207,15 @@ impl Rig {
             };
             let until = due.unwrap_or(to).max(now);
             let sent = self.bus.advance_until_full(until, frames);
-            self.settle();
+            self.collect_frames();
             if sent {
                 continue;
             }
             match self.clockwork.take(self.bus.now()) {
                 Some(tick) => self.happen(tick),
                 None if due.is_some() => {}
-                None if self.asker.has_request() => return,
-                None if overdue.is_some() => self.asker.handle_timeout(self.bus.now()),
+                None if self.client.has_request() => return,
+                None if overdue.is_some() => self.client.handle_timeout(self.bus.now()),
                 None => return,
             }
         }
@@ -249,8 +249,8 @@ impl Rig {
     }
 
     /// Collects the frames of the devices, and passes them to record, SDO client, lesson and link.
-    pub fn settle(&mut self) {
-        self.settle_line();
+    pub fn collect_frames(&mut self) {
+        self.collect_disturbances();
         if !self.is_watched() {
             let sent = self.bus.poll_all();
             let seen = |Sent { at, device, frame }| LineEvent::Frame { at, device, frame };
@@ -258,43 +258,43 @@ impl Rig {
             return;
         }
         while let Some(Sent { at, device, frame }) = self.bus.poll() {
-            if !self.passes(&frame) {
+            if !self.offer_to_link(&frame) {
                 continue;
             }
             if device.is_some() {
-                self.asker.handle_frame(at, &frame);
+                self.client.handle_frame(at, &frame);
             }
-            self.saw(LineEvent::Frame { at, device, frame });
+            self.record(LineEvent::Frame { at, device, frame });
         }
-        self.look();
+        self.check_lesson();
     }
 
     /// Returns whether SDO client, lesson or link react to frames.
     fn is_watched(&self) -> bool {
-        self.asker.is_busy() || self.has_pupil() || self.has_link()
+        self.client.is_busy() || self.has_lesson() || self.has_link()
     }
 
-    fn settle_line(&mut self) {
+    fn collect_disturbances(&mut self) {
         while let Some(one) = self.bus.line.poll() {
-            self.lost(one.at);
+            self.show_lesson_disturbance(one.at);
             self.seen.push(LineEvent::Disturbed(one));
         }
     }
 
-    fn saw(&mut self, seen: LineEvent) {
-        self.bound();
+    fn record(&mut self, seen: LineEvent) {
+        self.drop_oldest();
         self.seen.push(seen);
-        self.watched(&seen);
+        self.show_lesson(&seen);
     }
 }
 
 #[cfg(not(feature = "real"))]
 impl Rig {
-    fn passes(&mut self, _: &Frame) -> bool {
+    fn offer_to_link(&mut self, _: &Frame) -> bool {
         true
     }
 
-    fn bound(&mut self) {}
+    fn drop_oldest(&mut self) {}
 
     fn has_link(&self) -> bool {
         false
@@ -303,17 +303,17 @@ impl Rig {
 
 #[cfg(not(feature = "lessons"))]
 impl Rig {
-    fn watched(&mut self, _: &LineEvent) {}
+    fn show_lesson(&mut self, _: &LineEvent) {}
 
-    fn lost(&mut self, _: Instant) {}
+    fn show_lesson_disturbance(&mut self, _: Instant) {}
 
-    fn look(&mut self) {}
+    fn check_lesson(&mut self) {}
 
     fn reached(&self) -> usize {
         0
     }
 
-    fn has_pupil(&self) -> bool {
+    fn has_lesson(&self) -> bool {
         false
     }
 }

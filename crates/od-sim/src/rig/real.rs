@@ -34,13 +34,13 @@ impl Rig {
         self.bus.receive(frame);
         let mut devices = self.bus.devices().iter();
         let device = devices.position(|one| one.is_sender(frame));
-        self.asker.handle_frame(now, frame);
-        self.saw(LineEvent::Heard {
+        self.client.handle_frame(now, frame);
+        self.record(LineEvent::Heard {
             at: now,
             device,
             frame: *frame,
         });
-        self.settle();
+        self.collect_frames();
     }
 
     /// Returns the next frame to send over the link.
@@ -58,8 +58,9 @@ impl Rig {
         self.port.as_ref().map_or(0, |port| port.dropped)
     }
 
-    /// Returns whether a frame of this side may be sent; on a real bus it is then queued for the link.
-    pub(super) fn passes(&mut self, frame: &Frame) -> bool {
+    /// Offers a frame of this side to the link, which queues it, or holds it back while sending is off.
+    /// Returns whether the frame is sent; `true` without a link.
+    pub(super) fn offer_to_link(&mut self, frame: &Frame) -> bool {
         let Some(port) = &mut self.port else {
             return true;
         };
@@ -76,7 +77,7 @@ impl Rig {
     }
 
     /// Drops the oldest items above the limit.
-    pub(super) fn bound(&mut self) {
+    pub(super) fn drop_oldest(&mut self) {
         if let Some(port) = &mut self.port
             && self.seen.len() >= 2 * MOST
         {

@@ -21,7 +21,7 @@ fn run(rig: &mut Rig, micros: u64) {
             rig.send(&frame);
         }
         rig.pass(end, usize::MAX);
-        if rig.bus.now() == end && !rig.asker.has_request() {
+        if rig.bus.now() == end && !rig.client.has_request() {
             return;
         }
     }

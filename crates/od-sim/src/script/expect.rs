@@ -52,7 +52,7 @@ impl Runner<'_> {
     }
 
     fn silence(&mut self, micros: u64) -> Result<()> {
-        self.pass_greetings(|_| false);
+        self.skip_boot_ups(|_| false);
         self.advance_until_pending(self.now().plus_micros(micros));
         match self.place.pending.front().copied() {
             None => Ok(()),
@@ -80,7 +80,7 @@ impl Runner<'_> {
             }
         };
         self.advance_until_pending(until);
-        self.pass_greetings(|frame| wanted.matches(frame));
+        self.skip_boot_ups(|frame| wanted.matches(frame));
         self.advance_until_pending(until);
         let wanted_text = format!("{wanted}{when}");
         let Some(sent) = self.place.pending.pop_front() else {

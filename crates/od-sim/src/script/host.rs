@@ -44,7 +44,12 @@ pub trait Host {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, Refused>;
+    ) -> Result<VirtualDevice, Refused> {
+        match self.inner() {
+            Some(host) => host.device(name, node_id),
+            None => Err("this program makes no devices; remove the line".into()),
+        }
+    }
 
     /// The limits of a script; `None`: no limits.
     fn limits(&mut self) -> Option<Limits> {
@@ -92,14 +97,6 @@ impl<F: FnMut(Instant, Origin, Frame)> Host for Recorder<'_, F> {
         Some(self.host)
     }
 
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, Refused> {
-        self.host.device(name, node_id)
-    }
-
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         (self.record)(at, origin, *frame);
     }
@@ -116,14 +113,6 @@ pub struct Limited<'a>(
 impl Host for Limited<'_> {
     fn inner(&mut self) -> Option<&mut dyn Host> {
         Some(self.0)
-    }
-
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, Refused> {
-        self.0.device(name, node_id)
     }
 
     fn limits(&mut self) -> Option<Limits> {

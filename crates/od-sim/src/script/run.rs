@@ -49,7 +49,7 @@ pub(super) struct Place {
     pub(super) pending: VecDeque<Sent>,
     ignored: Vec<Pattern>,
     /// Boot-up messages of `device` lines, which a script need not expect.
-    greetings: Vec<Sent>,
+    boot_ups: Vec<Sent>,
     pub(super) held: usize,
     frames: u64,
     /// Frames of the master and, on a real line, of the script.
@@ -65,7 +65,7 @@ impl Place {
         Self {
             pending: VecDeque::new(),
             ignored: Vec::new(),
-            greetings: Vec::new(),
+            boot_ups: Vec::new(),
             held: 0,
             frames: 0,
             own: 0,
@@ -168,7 +168,7 @@ impl Runner<'_> {
             result = impossible("the run was interrupted");
         }
         if self.host.waits_for_responses() {
-            self.settle();
+            self.wait_for_responses();
         }
         self.host.look(&mut self.bench.bus);
         result
@@ -328,16 +328,16 @@ impl Runner<'_> {
                 self.send_out(station);
             }
             self.place
-                .greetings
+                .boot_ups
                 .extend(self.place.pending.iter().skip(before));
         }
         Ok(())
     }
 
     /// Removes boot-up messages from the queue that do not match.
-    pub(super) fn pass_greetings(&mut self, wanted: impl Fn(&Frame) -> bool) {
+    pub(super) fn skip_boot_ups(&mut self, wanted: impl Fn(&Frame) -> bool) {
         while let Some(sent) = self.place.pending.front()
-            && self.place.greetings.contains(sent)
+            && self.place.boot_ups.contains(sent)
             && !wanted(&sent.frame)
         {
             self.place.pending.pop_front();
@@ -381,7 +381,7 @@ impl Runner<'_> {
 
     /// Lets time pass until the frames on a real line are through, with their responses; not longer than
     /// [`ON_ITS_WAY`], because a full line always has a frame.
-    fn settle(&mut self) {
+    fn wait_for_responses(&mut self) {
         let bus = &mut self.bench.bus;
         let end = bus.now().plus_micros(ON_ITS_WAY);
         while self.bench.bus.is_busy()

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, after, before, from, middle, millis};
+use crate::diagnose::facts::{Facts, after, before, from, median_interval, millis};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -41,7 +41,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             );
         }
         // EMCY 8130h of the guarded node itself: its master stopped guarding.
-        let period = middle(&node.guards);
+        let period = median_interval(&node.guards);
         for emcy in node.emcys.iter().filter(|emcy| emcy.code == 0x8130) {
             let last = before(&node.guards, emcy.seen.at).last();
             let Some(last) = last.filter(|_| node.guards.len() >= 3) else {

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Node, Seen, after, before, middle, millis, until};
+use crate::diagnose::facts::{Facts, Node, Seen, after, before, median_interval, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -43,7 +43,7 @@ fn gaps(facts: &Facts<'_>, node: &Node) -> Vec<(Seen, Option<Seen>)> {
         let own = beats
             .get(since.max(number.saturating_sub(12))..number)
             .unwrap_or_default();
-        let period = middle(own);
+        let period = median_interval(own);
         let end = next.map_or(facts.end, |next| next.at);
         let longest = (period * 5 / 2).max(period + 20_000);
         let is_late = period > 0 && end.micros_since(last.at) > longest;

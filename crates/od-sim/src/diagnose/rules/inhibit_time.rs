@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_model::Address;
 
-use crate::diagnose::facts::{Facts, middle, millis};
+use crate::diagnose::facts::{Facts, median_interval, millis};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -28,7 +28,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             let Some(seen) = facts.pdos.get(&((cob_id & 0x7FF) as u16)) else {
                 continue;
             };
-            let period = middle(seen);
+            let period = median_interval(seen);
             let is_held = timer > 0 && inhibit > timer && period.abs_diff(inhibit) * 10 <= inhibit;
             let [first, .., last] = seen[..] else {
                 continue;

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Seen, from, middle, millis, until};
+use crate::diagnose::facts::{Facts, Seen, from, median_interval, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -29,7 +29,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
 }
 
 fn incident(facts: &Facts<'_>, id: u16, seen: &[Seen]) -> Option<Incident> {
-    let period = middle(seen);
+    let period = median_interval(seen);
     if seen.len() < 12 || period == 0 {
         return None;
     }

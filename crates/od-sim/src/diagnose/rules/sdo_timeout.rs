@@ -91,9 +91,7 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
             format!(
                 "no frame of node {id} is in the log: it is off, not connected, or has another node ID or bit rate"
             ),
-            format!(
-                "power of the device, its node ID (`odkit scan`), its bit rate; node {id} may be a slip of the client"
-            ),
+            "power of the device, its node ID (`odkit scan`), its bit rate; the client may use a wrong node ID",
         )
     } else if is_alive {
         Cause::new(

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Seen, is_interleaved, middle, millis};
+use crate::diagnose::facts::{Facts, Seen, is_interleaved, median_interval, millis};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -15,7 +15,7 @@ pub(super) const RULE: Rule = Rule {
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let all = &facts.syncs;
-    let period = middle(all);
+    let period = median_interval(all);
     if all.len() < 20 || period == 0 || is_interleaved(all) {
         return Vec::new();
     }
