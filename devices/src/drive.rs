@@ -31,7 +31,6 @@ odkit::object_dictionary! {
     }
 }
 
-/// The device.
 #[cfg(feature = "machines")]
 pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind {
     DeviceKind {

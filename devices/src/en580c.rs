@@ -28,7 +28,6 @@ odkit::object_dictionary! {
     }
 }
 
-/// The device.
 #[cfg(feature = "std")]
 pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind {
     DeviceKind {

@@ -25,7 +25,6 @@ pub(crate) struct Family {
     pub(crate) remarks: usize,
 }
 
-/// One device.
 pub(crate) struct Device {
     pub(crate) tables: Tables,
     pub(crate) items: Vec<Item>,

@@ -131,7 +131,6 @@ impl Report {
         u32::try_from(self.tokens.len()).unwrap_or(u32::MAX)
     }
 
-    /// The token of a finding, if it has one.
     pub(crate) fn token(&self, finding: &Finding) -> Option<Place> {
         self.span(finding.span()?)
     }

@@ -94,7 +94,6 @@ const fn unpack(kind: u32, bits: u64, is_text: bool) -> Literal {
     }
 }
 
-/// A word of the pool.
 const fn word(pool: &[u32], at: usize) -> u32 {
     if at < pool.len() { pool[at] } else { 0 }
 }

@@ -98,7 +98,6 @@ impl Key {
         Ok(Self::Name(object.str()?.extract()?))
     }
 
-    /// Its address and type in a device.
     fn find(&self, device: &VirtualDevice) -> Result<(Address, DataType), Fault> {
         let text = match self {
             Self::Address(address) => address.to_string(),

@@ -33,7 +33,6 @@ impl Journal {
         self.dropped + self.records.len()
     }
 
-    /// The records from a number on.
     pub(crate) fn since(&self, number: usize) -> impl Iterator<Item = &Record> {
         let from = number.saturating_sub(self.dropped).min(self.records.len());
         self.records.range(from..)
@@ -74,7 +73,6 @@ impl Journal {
     }
 }
 
-/// The frame of a record.
 pub(crate) fn frame(record: &Record) -> Option<Frame> {
     match record.what {
         What::Frame(frame) => Some(frame),

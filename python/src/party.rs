@@ -100,7 +100,6 @@ impl Party {
         }
     }
 
-    /// Returns whether it is this thread.
     pub(crate) fn is(&self, id: ThreadId) -> bool {
         self.thread.as_ref().is_some_and(|own| own.id() == id)
     }

@@ -354,7 +354,6 @@ impl State {
         true
     }
 
-    /// A thread begins a wait.
     pub(crate) fn begin(&mut self, id: ThreadId, wait: Wait) {
         if let Some(party) = self.parties.iter_mut().find(|party| party.is(id)) {
             party.begin(wait);

@@ -46,7 +46,7 @@ def value(data_type, bits, raw):
 
 
 def mappings(dictionary):
-    """Name, bits and values of each PDO that maps something; the mapping of 254 and 255 is none."""
+    """Name, bits and values of each PDO that maps something. The counts 254 and 255 (multiplexed PDOs) map nothing."""
     objects = {int(one["index"], 16): {sub["sub"]: sub for sub in one["entries"]} for one in dictionary["objects"]}
     for name, first in PDOS:
         for index in sorted(index for index in objects if first <= index < first + 0x200):

@@ -2,10 +2,10 @@
 
     python3 tests/stacks/stacks.py FOLDER [--again]
 
-FOLDER is outside the repository: stacks are fetched and built there, and their results stay there. A stack whose result is there is
-not run again without `--again`. Each stack is a slave of its own behind slcan over TCP; what it is not made for is in its EDS all the
-same, so every failure is judged in judged.txt. The driver of ros2_canopen for drives is a master instead: it commands the built-in
-drive. It needs a compiler of C++ and the headers of Boost.
+FOLDER is outside the repository: stacks are fetched and built there, and their results stay there. A stack with a result is not run
+again without `--again`. Each stack is a slave of its own behind slcan over TCP. Its EDS also declares what the slave is not made for,
+so judged.txt says for each failure whose it is. The driver of ros2_canopen for drives is a master instead: it commands the built-in
+drive. The driver needs a compiler of C++ and the headers of Boost.
 """
 
 import fnmatch
@@ -94,7 +94,7 @@ def canopen_rs(folder):
 
 
 def source(folder, name):
-    """The checkout of a stack; a clone that is there already is used."""
+    """The checkout of a stack, cloned if it is missing."""
     path = folder / name
     address, commit = SOURCES[name]
     if not path.exists():
@@ -316,8 +316,8 @@ def page(folder):
         "",
         "`Motor402` and `LelyDriverBridge` of ros2_canopen (commit 6ada1969, 0.3.4, unchanged) on the master of Lely core (commit 620d1858)",
         "command both axes of `odkit sim drive@3` every 10 ms. Small classes of ours replace what they use of rclcpp.",
-        "Two things that its user has to know: the RPDO with the set-point is event-driven, or the controlword overtakes it; and",
-        "`handleInit` on an enabled motor reads an old state and ends at once, so the motor is shut down before.",
+        "Its user has to know two things: the RPDO with the set-point must be event-driven, otherwise the controlword overtakes it; and the",
+        "motor must be shut down before `handleInit`, which reads an old state of an enabled motor and ends at once.",
         f"{len(done)} of {len(steps)} steps are done:",
         "",
         "| step | axis 1 | axis 2 |",

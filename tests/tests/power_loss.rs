@@ -221,8 +221,8 @@ fn cut_everywhere<S: Cut>(kind: &'static DeviceKind, erased: S, least: usize) {
         let complete = now == after;
         assert!(
             now == *kept || untouched || complete,
-            "{name}, cut after {cut} steps: {:?} are not what they were before, {:?} not the \
-             factory's, {:?} not the new ones",
+            "{name}, cut after {cut} steps: the values are a mixture; {:?} differ from those before the save, \
+             {:?} from the factory values, {:?} from the new ones",
             difference(&now, &before),
             difference(&now, &factory),
             difference(&now, &after)

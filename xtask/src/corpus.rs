@@ -1,7 +1,7 @@
 //! `cargo xtask corpus DIR`: reads a folder of device files and reports the findings.
 //!
-//! An example of the tests does the work, because it needs the crates of odkit, and xtask none of them. With `--nodes` another example
-//! simulates each file, learns it and tests it.
+//! An example of the tests does the work, because xtask does not depend on the crates of odkit. With `--nodes` another example
+//! simulates a node of each file, learns its EDS and tests it.
 
 use std::path::{Path, absolute};
 

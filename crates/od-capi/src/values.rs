@@ -10,7 +10,6 @@ use crate::answer::{ODKIT_ARGUMENT, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE};
 use crate::instance::{Instance, answer, put};
 use crate::number::{self, Wire};
 
-/// The entry at an address.
 fn find(store: &Store<'_>, address: Address) -> Result<Entry, u32> {
     let found = store.dictionary().find(address);
     found.map_err(|missing| AbortCode::from(missing).code())

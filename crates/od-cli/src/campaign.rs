@@ -181,7 +181,6 @@ fn add(kinds: &mut Kinds, first: Fails, seeds: &[u64]) {
     kind.seeds.extend(seeds);
 }
 
-/// A failure as text.
 struct FailureText {
     seeds: Vec<u64>,
     reason: Reason,

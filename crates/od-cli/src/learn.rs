@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The EDS that the node stores (1021h).
-fn sent(args: &Args, link: &mut Box<dyn Link>) -> Result<Option<String>, Failure> {
+fn stored_eds(args: &Args, link: &mut Box<dyn Link>) -> Result<Option<String>, Failure> {
     let node = args.node.raw();
     Ok(match stored(link, args.node)? {
         Some(Stored::Eds(text)) => {
@@ -95,11 +95,11 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
         today: Some(today()),
     };
     if !(args.ignore_stored || args.allow_writes || args.twin)
-        && let Some(text) = sent(args, &mut link)?
+        && let Some(text) = stored_eds(args, &mut link)?
     {
         return output::save(args.output.as_deref(), &Visible(&text).lines());
     }
-    let told = |index: u16| {
+    let progress = |index: u16| {
         if args.output.is_some() {
             output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
         }
@@ -108,7 +108,7 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
         description,
         left,
         faults,
-    } = learn(&mut link, args.node, options, told)?;
+    } = learn(&mut link, args.node, options, progress)?;
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
             "node {} has no objects from 1000h to 9FFFh",

@@ -130,7 +130,7 @@ pub(crate) fn end(link: &impl Link, seconds: Option<f64>) -> Instant {
 pub(crate) fn record(args: &Args) -> Result<(), Failure> {
     let mut bus = args.bus.open()?;
     let mut recorder = Recorder::create(&args.file)?;
-    note!("recording until Ctrl-C");
+    note!("recording; Ctrl-C ends it");
     let until = end(&bus, args.time);
     let result = loop {
         if args.count.is_some_and(|count| recorder.count >= count) {

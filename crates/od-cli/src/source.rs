@@ -216,7 +216,6 @@ impl Source {
         self.document = document.into();
     }
 
-    /// Its text.
     pub(crate) fn text(&self) -> &str {
         self.document().text()
     }

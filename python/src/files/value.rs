@@ -56,7 +56,6 @@ pub(crate) fn to_python<'p>(
     }
 }
 
-/// A value of an entry, if it has one.
 pub(crate) fn optional<'p>(
     py: Python<'p>,
     entry: &EntryDescription,

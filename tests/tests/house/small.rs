@@ -12,14 +12,14 @@ const SHORT: usize = 40;
 #[rustfmt::skip] // a row is a row
 const REASONS: [(&str, &str); 24] = [
     ("crates/od-capi/src/answer.rs", "the codes that C sees, in one list"),
-    ("crates/od-capi/src/frame.rs", "the one way from a frame of C to a frame, and back"),
+    ("crates/od-capi/src/frame.rs", "the only conversion between frames of C and of Rust"),
     ("crates/od-cli/src/bridge.rs", "a subcommand"),
     ("crates/od-cli/src/clock.rs", "two subcommands need the date"),
     ("crates/od-cli/src/export.rs", "a subcommand"),
     ("crates/od-client/src/nmt.rs", "a service"),
-    ("crates/od-eds/src/codes.rs", "above rules and tools, below what allows a code"),
-    ("crates/od-lsp/src/host.rs", "what a program gives the server: its files need the trait, too"),
-    ("crates/od-runtime/src/blank.rs", "all that an array holds needs it"),
+    ("crates/od-eds/src/codes.rs", "rules, tools and `odkit-allow` use it"),
+    ("crates/od-lsp/src/host.rs", "the trait of the program around the server; files and requests use it"),
+    ("crates/od-runtime/src/blank.rs", "each type in the arrays of a node implements it"),
     ("crates/od-runtime/src/number.rs", "services, store and storage need it"),
     ("crates/od-runtime/src/storage/image/cob_id.rs", "save and load share it"),
     ("crates/od-sim/src/cursor.rs", "scripts and logs are read with it"),

@@ -231,7 +231,6 @@ fn folders(metadata: &Value) -> BTreeMap<(&str, &str), PathBuf> {
     named.collect()
 }
 
-/// The bill of an npm package.
 fn npm(dist: &Dist<'_>, package: &str) -> Result<Bill> {
     let folder = dist.repo.root.join(package);
     let lock = folder.join("package-lock.json");

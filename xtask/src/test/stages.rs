@@ -117,7 +117,6 @@ impl Stage {
     }
 }
 
-/// All stages.
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
     stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick().beside(Lane::Lint),

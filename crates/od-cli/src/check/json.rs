@@ -23,7 +23,7 @@ struct File<'a> {
     /// The tools of `--for`, with the result of each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     tools: Vec<Outcome>,
-    /// Fixes that were not applied.
+    /// Fixes that would do harm.
     held: Vec<Held>,
     /// Name of the field in version 1.
     #[serde(rename = "diagnostics")]
@@ -55,7 +55,7 @@ struct Outcome {
     verdict: &'static str,
 }
 
-/// A fix that would do harm.
+/// A fix that was not applied, because it would do harm.
 #[derive(Serialize)]
 struct Held {
     code: &'static str,

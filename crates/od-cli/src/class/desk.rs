@@ -43,7 +43,6 @@ struct Removed {
 }
 
 impl Desk {
-    /// Answers a request.
     pub(super) fn answer(&self, request: &Request, now: Instant) -> Answer {
         let answered = request
             .admitted()

@@ -35,7 +35,7 @@ enum What {
     /// Give a node ID to one slave, or to all that have none, one after the other
     ///
     /// Without NODE a wizard asks for the node ID of each slave without one, and names the serial
-    /// number of the encoder that it asks about.
+    /// number of the device that it asks about.
     Set {
         /// Node ID for the slave [default: the wizard asks]
         #[arg(value_name = "NODE", value_parser = source::node_id)]

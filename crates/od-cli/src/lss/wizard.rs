@@ -1,4 +1,4 @@
-//! The wizard sets up new encoders one after the other.
+//! The wizard sets up new devices one after the other.
 
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
@@ -50,7 +50,7 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
     for (at, slave) in (1..).zip(&slaves) {
         tell("");
         tell(&format!(
-            "{at} of {}: look at the encoder with serial number {}",
+            "{at} of {}: look at the device with serial number {}",
             slaves.len(),
             slave.serial
         ));
@@ -160,7 +160,7 @@ fn report(format: Format, set_up: &[(Identity, NodeId, bool)]) -> Result<(), Fai
         .iter()
         .map(|(slave, node, _)| format!("node {:<3}  serial number {}", node.raw(), slave.serial));
     let mut lines: Vec<String> = lines.collect();
-    lines.push(format!("{} set up", plural(set_up.len(), "encoder")));
+    lines.push(format!("{} set up", plural(set_up.len(), "device")));
     output::print(&lines.join("\n"))
 }
 

@@ -109,7 +109,7 @@ impl Section<'_> {
         self.yaml.get(key).map(Yaml::text)
     }
 
-    /// The entries of a key, whose keys are numbers.
+    /// The entries below a key, whose own keys are numbers.
     fn numbered<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, &Yaml)>, String> {
         let entries = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
         let entries = entries.map(|(number, value)| {
@@ -119,7 +119,7 @@ impl Section<'_> {
         entries.collect()
     }
 
-    /// The entries of a key, which are numbers.
+    /// The entries below a key, whose own keys and values are numbers.
     fn numbers<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, u32)>, String> {
         let entries = self.numbered(key)?.into_iter().map(|(sub, value)| {
             let number = value

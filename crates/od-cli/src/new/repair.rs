@@ -55,7 +55,7 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
     Err(left.into_iter().filter(Finding::is_unsound).collect())
 }
 
-/// An error that is left, in a line.
+/// Returns the line of a note about an error that is left.
 pub(super) fn left(error: &Finding) -> String {
     let said = say(error, &Eds);
     let place = said
@@ -93,7 +93,7 @@ fn mapped_by_rpdos(description: &Description) -> BTreeSet<Address> {
     entries.flatten().map(|entry| entry.address).collect()
 }
 
-/// Change of a value, old → new.
+/// Describes what changed in a value: `DefaultValue 0x0 → 0x10`.
 fn changes(old: &EntryDescription, new: &EntryDescription) -> String {
     let value = |value: &Option<Spanned<Value>>| {
         value
@@ -199,7 +199,7 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
     });
 }
 
-/// One change for one error; `None` if nothing more can be changed.
+/// Makes one change for an error; `None` if nothing more can be changed.
 fn step(
     description: &mut Description,
     error: &Finding,
@@ -279,7 +279,7 @@ fn step(
     Some(())
 }
 
-/// Sub-index 0 is the highest sub-index.
+/// Sets sub-index 0 to the highest sub-index.
 fn count(object: &mut ObjectDescription) {
     let highest = object.entries.keys().copied().max().unwrap_or(0);
     let name = match object.entries.get(&0) {
@@ -295,7 +295,7 @@ fn count(object: &mut ObjectDescription) {
     object.sub_number = None;
 }
 
-/// A mapping that lost an entry maps nothing: what is left of it is another PDO than the file has.
+/// Sets the number of mapped objects to 0: after the loss of an entry, the others would make another PDO than the file has.
 fn map_nothing(index: u16, object: &mut ObjectDescription, notes: &mut Notes) {
     if let Some(entry) = object.entries.get_mut(&0) {
         let old = entry.clone();
@@ -309,7 +309,7 @@ fn map_nothing(index: u16, object: &mut ObjectDescription, notes: &mut Notes) {
     }
 }
 
-/// A service without a CAN-ID that it may not use: SYNC and TIME get their own, any other is not valid (bit 31).
+/// Replaces a CAN-ID that the service may not use: SYNC and TIME get the default, other services a COB-ID that is not valid (bit 31).
 fn switch_off(index: u16, entry: &mut EntryDescription) -> Option<()> {
     let number = |value: &Value| match (index, value) {
         (0x1005, _) => Some(Value::Unsigned(0x80)),
@@ -327,7 +327,7 @@ fn switch_off(index: u16, entry: &mut EntryDescription) -> Option<()> {
     Some(())
 }
 
-/// A PDO without this mapping entry and the entries after it.
+/// Removes a mapping entry, and the entries after it.
 fn unmap(object: &mut ObjectDescription, sub: u8) {
     for (at, entry) in &mut object.entries {
         if *at >= sub.max(1) {

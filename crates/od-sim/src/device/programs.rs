@@ -50,7 +50,6 @@ impl ProgramMemory for Memory {
     }
 }
 
-/// The loader of one program.
 pub(crate) type Loader = program::Loader<Memory, PAGE>;
 
 /// The loaders of a device, by the sub-indices of 1F50h.

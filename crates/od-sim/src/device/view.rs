@@ -65,7 +65,7 @@ impl VirtualDevice {
         }
     }
 
-    /// Does it have the dual LED? A device of an EDS file always has one.
+    /// Returns whether it has the dual LED. A device of an EDS file always has one.
     pub(crate) fn has_leds(&self) -> bool {
         self.has_leds
     }
@@ -74,7 +74,7 @@ impl VirtualDevice {
     pub fn leds(&self) -> (Led, Led) {
         let bits = |index| self.stored(index, 0).unwrap_or(0);
         let warning = bits(0x6505) != 0;
-        // 1001h does not tell a warning from an error beside it; bit 4 never warns.
+        // A warning sets bits of 1001h as an error does, except bit 4, which only errors set.
         let encoder = self.node.application.encoder();
         let broken = encoder.is_some_and(|encoder| {
             let reports = encoder.profile().reports.iter();

@@ -14,7 +14,6 @@ use super::typed::{Typed, write};
 use super::world::{bus, connect, device, emcy, fault, label, pin, power, shaft, switch, wire};
 use crate::logs::candump;
 
-/// One verb.
 pub(super) struct Verb {
     pub(super) name: &'static str,
     /// Syntax of its lines, for messages.

@@ -26,7 +26,6 @@ pub enum What {
 }
 
 impl Record {
-    /// A received frame.
     pub(super) const fn received(at: Instant, frame: Frame) -> Self {
         Self {
             at,

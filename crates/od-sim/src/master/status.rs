@@ -3,7 +3,7 @@
 /// Stage of the process *boot NMT slave*, in its order.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Stage {
-    /// Is the node in the network list (1F81h)?
+    /// The node is in the network list (1F81h).
     List,
     /// NMT reset communication.
     Reset,

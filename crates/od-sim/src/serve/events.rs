@@ -8,7 +8,6 @@ use mio::{Poll, Registry, Token, Waker};
 
 /// Token of [`Events::waker`].
 const WAKE: Token = Token(usize::MAX);
-/// Token of the timer.
 #[cfg(target_os = "linux")]
 const TIMER: Token = Token(usize::MAX - 1);
 

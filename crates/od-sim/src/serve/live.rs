@@ -91,7 +91,6 @@ impl Live {
         live
     }
 
-    /// Adds a link.
     pub(super) fn add(&mut self, link: Opened) -> io::Result<()> {
         match link {
             Opened::Listener(protocol, listener, _) => {

@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn length_without_stuff_bits_is_44_or_64_and_8_a_byte() {
+    fn length_without_stuff_bits_is_44_or_64_plus_8_per_byte() {
         let plain = |frame: &Frame| bits(frame).iter().filter(|bit| !bit.stuffed).count();
         for len in 0..=8 {
             let data = &[0xA5; 8][..len];

@@ -21,7 +21,7 @@ fn the_wizard_sets_up_new_encoders_one_after_the_other() {
     assert!(
         set_up
             .err
-            .contains("look at the encoder with serial number 4711"),
+            .contains("look at the device with serial number 4711"),
         "{}",
         set_up.err
     );
