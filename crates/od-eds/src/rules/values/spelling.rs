@@ -5,37 +5,35 @@ use crate::finding::{Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::scan::section::Text;
 
-/// The help for a value that odkit reads, though not every tool does.
-const WRITE: &str = "write `{key={right}}`{fix}";
+/// The defaults of a rule about a spelling: a safe fix writes the value in the form that every tool reads.
+const fn spelling(code: &'static str) -> Rule {
+    Rule {
+        source: "CiA 306-1, numbers",
+        fixability: Fixability::Safe,
+        help: "write `{key={right}}`{fix}",
+        ..Rule::of(code)
+    }
+}
 
 pub(crate) static I0408: Rule = Rule {
     title: "number with a leading 0 is octal",
     why: "`010` is 8 in C and in odkit, but 10 in some tools.",
-    source: "CiA 306-1, numbers",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as octal",
-    help: WRITE,
-    ..Rule::of("I0408")
+    ..spelling("I0408")
 };
 
 pub(crate) static W0409: Rule = Rule {
     title: "number with a leading 0 is not octal",
     why: "`08` is not a valid octal number. odkit reads it as decimal; many EDS parsers reject it.",
-    source: "CiA 306-1, numbers",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as decimal",
-    help: WRITE,
-    ..Rule::of("W0409")
+    ..spelling("W0409")
 };
 
 pub(crate) static I0410: Rule = Rule {
     title: "negative number in two's complement",
     why: "In a signed type, a hexadecimal number can be the bit pattern: FFh is -1 in an INTEGER8. odkit reads it so; some tools do not.",
-    source: "CiA 306-1, numbers",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as a negative number",
-    help: WRITE,
-    ..Rule::of("I0410")
+    ..spelling("I0410")
 };
 
 pub(crate) static I0411: Rule = Rule {
@@ -43,70 +41,53 @@ pub(crate) static I0411: Rule = Rule {
     title: "$NODEID formula is not written as `$NODEID+n`",
     why: "odkit also reads another order, other case and blanks; some tools do not. Without `$NODEID` no tool finds the node ID, and the finding is an error.",
     source: "CiA 306-1, $NODEID",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as `$NODEID` plus a number",
-    help: WRITE,
-    ..Rule::of("I0411")
+    ..spelling("I0411")
 };
 
 pub(crate) static W0419: Rule = Rule {
     title: "byte string is not hexadecimal",
     why: "An OCTET_STRING or a DOMAIN is written as hexadecimal bytes. odkit uses the codes of the characters.",
     source: "CiA 306-1, object sections",
-    fixability: Fixability::Safe,
     says: "`{given}` is not a string of hexadecimal bytes",
-    help: WRITE,
-    ..Rule::of("W0419")
+    ..spelling("W0419")
 };
 
 pub(crate) static W0420: Rule = Rule {
     title: "number has a suffix or a decimal point",
     why: "`0x10L` and `5.0` are how other languages write integers. odkit reads the integer; many EDS parsers reject it.",
-    source: "CiA 306-1, numbers",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as an integer",
-    help: WRITE,
-    ..Rule::of("W0420")
+    ..spelling("W0420")
 };
 
 pub(crate) static W0421: Rule = Rule {
     title: "BOOLEAN is neither 0 nor 1",
     why: "`true` and `false` are words of other formats. odkit reads them as 1 and 0; many EDS parsers reject them.",
     source: "CiA 306-1, object sections",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as a number",
-    help: WRITE,
-    ..Rule::of("W0421")
+    ..spelling("W0421")
 };
 
 pub(crate) static W0422: Rule = Rule {
     title: "hexadecimal number without `0x`",
     why: "`FF` and `1Fh` are how other formats write 0xFF and 0x1F. odkit reads them so; many EDS parsers reject them.",
-    source: "CiA 306-1, numbers",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as hexadecimal",
-    help: WRITE,
-    ..Rule::of("W0422")
+    ..spelling("W0422")
 };
 
 pub(crate) static W0423: Rule = Rule {
     title: "decimal comma",
     why: "odkit reads the comma as a decimal point; many EDS parsers reject it.",
-    source: "CiA 306-1, numbers",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` with a decimal point",
-    help: WRITE,
-    ..Rule::of("W0423")
+    ..spelling("W0423")
 };
 
 pub(crate) static W0424: Rule = Rule {
     title: "word instead of the value of CiA 306",
     why: "Types and object codes are numbers, PDOMapping is 0 or 1, and AccessType is one of six words. odkit reads what the word means; many EDS parsers reject it.",
     source: "CiA 306-1, object sections",
-    fixability: Fixability::Safe,
     says: "odkit reads `{given}` as `{right}`",
-    help: WRITE,
-    ..Rule::of("W0424")
+    ..spelling("W0424")
 };
 
 /// The finding about a value that odkit reads, though not every tool does.
