@@ -1,4 +1,5 @@
-//! COB-IDs from anywhere: the defaults of a dictionary, saved values, a master, with any node ID. No node sends
+//! COB-IDs from anywhere: the defaults of a dictionary, saved values, a master by SDO or RPDO, the application, with any
+//! node ID, also one that LSS changes. No node sends
 //! by a restricted CAN-ID but by the service that owns it, nor two services by one CAN-ID (CiA 301, table 40).
 
 use std::collections::BTreeMap;
@@ -31,10 +32,12 @@ fn make(random: &mut Random) -> Vec<u8> {
 const TPDOS: u16 = 3;
 
 /// The objects with a COB-ID, and their value where nothing is wrong.
-const COB_IDS: [(u16, u8, u32, bool); 10] = [
+const COB_IDS: [(u16, u8, u32, bool); 12] = [
     (0x1005, 0, 0x4000_0080, false),
     (0x1012, 0, 0x4000_0100, false),
     (0x1014, 0, 0x80, true),
+    (0x1200, 1, 0x600, true),
+    (0x1200, 2, 0x580, true),
     (0x1201, 1, 0x8000_0000, false),
     (0x1201, 2, 0x8000_0000, false),
     (0x1400, 1, 0x200, true),
@@ -88,8 +91,8 @@ fn cob_id(choices: &mut Choices<'_>) -> (u32, bool) {
     (id | flags, choices.once_in(2))
 }
 
-/// A device with every service that has a COB-ID; TPDO n carries the number n.
-fn eds(choices: &mut Choices<'_>) -> String {
+/// A device with every service that has a COB-ID; TPDO n carries the number n, and an RPDO the value at `mapped`.
+fn eds(mapped: (u16, u8), choices: &mut Choices<'_>) -> String {
     let mut objects: BTreeMap<(u16, u8), (u16, &str, String)> = BTreeMap::new();
     let mut put = |index, sub, data_type, access, default: String| {
         objects.insert((index, sub), (data_type, access, default));
@@ -102,12 +105,15 @@ fn eds(choices: &mut Choices<'_>) -> String {
     put(0x1017, 0, 6, "rw", "50".into());
     put(0x1018, 0, 5, "const", "1".into());
     put(0x1018, 1, 7, "ro", "0x5F".into());
+    put(0x1200, 0, 5, "const", "2".into());
     put(0x1201, 0, 5, "const", "2".into());
-    for rpdo in 0..2 {
+    // The second RPDO writes a COB-ID.
+    for (rpdo, (index, sub)) in (0..2).zip([(0x2010, 0), mapped]) {
+        let entry = format!("0x{index:04X}{sub:02X}20");
         put(0x1400 + rpdo, 0, 5, "const", "2".into());
         put(0x1400 + rpdo, 2, 5, "rw", "255".into());
         put(0x1600 + rpdo, 0, 5, "const", "1".into());
-        put(0x1600 + rpdo, 1, 7, "const", "0x20100020".into());
+        put(0x1600 + rpdo, 1, 7, "const", entry);
     }
     for tpdo in 0..TPDOS {
         let kind = choices.pick(&[1, 253, 254, 255]);
@@ -134,7 +140,8 @@ fn eds(choices: &mut Choices<'_>) -> String {
         let node = if with_node { "$NODEID+" } else { "" };
         put(index, sub, 7, "rw", format!("{node}0x{id:X}"));
     }
-    let mut text = String::from("[DeviceInfo]\nProductName=COB-IDs\n");
+    let mut text =
+        String::from("[DeviceInfo]\nProductName=COB-IDs\nLSS_Supported=1\nBaudRate_125=1\n");
     for ((index, sub), (data_type, access, default)) in &objects {
         let is_record = objects.contains_key(&(*index, 1));
         if is_record && *sub == 0 {
@@ -149,7 +156,7 @@ fn eds(choices: &mut Choices<'_>) -> String {
         } else {
             String::new()
         };
-        let mappable = u8::from(*index >= 0x2000);
+        let mappable = u8::from(*index >= 0x2000 || mapped == (*index, *sub));
         let _ = write!(
             text,
             "\n[{index:X}{member}]\nParameterName=Value {sub}\nDataType={data_type}\nAccessType={access}\n\
@@ -179,7 +186,8 @@ fn saved(device: &VirtualDevice, node: NodeId, choices: &mut Choices<'_>) -> Vec
 
 fn run(input: &[u8]) {
     let mut choices = Choices(input);
-    let text = eds(&mut choices);
+    let (index, sub, ..) = choices.pick(&COB_IDS);
+    let text = eds((index, sub), &mut choices);
     trace(|| text.clone());
     let node = NodeId::new(1 + choices.below(127) as u8).unwrap_or(NodeId::ONE);
     let options = EdsOptions {
@@ -203,7 +211,7 @@ fn run(input: &[u8]) {
     seen.send(&Frame::standard(0, &[1, node.raw()]));
     seen.talk(&mut choices);
     for _ in 0..choices.below(6) {
-        seen.write(&mut choices);
+        seen.change(&mut choices);
         seen.talk(&mut choices);
     }
 }
@@ -271,19 +279,47 @@ impl Seen {
         self.listen(choices.pick(&[1, 20, 60, 1100]));
     }
 
-    /// A master writes a COB-ID, which the node may refuse; services may change their CAN-IDs.
-    fn write(&mut self, choices: &mut Choices<'_>) {
+    /// A master or the application writes a COB-ID, which the node may refuse, or LSS changes the node ID; services may
+    /// change their CAN-IDs.
+    fn change(&mut self, choices: &mut Choices<'_>) {
+        let own = u16::from(self.node.raw());
         let (index, sub, ..) = choices.pick(&COB_IDS);
         let (id, with_node) = cob_id(choices);
-        let id = id.wrapping_add(u32::from(self.node.raw()) * u32::from(with_node));
+        let id = id.wrapping_add(u32::from(own) * u32::from(with_node));
         let ([low, high], [a, b, c, d]) = (index.to_le_bytes(), id.to_le_bytes());
-        let request = 0x600 + u16::from(self.node.raw());
         self.owners.clear();
-        self.send(&Frame::standard(
-            request,
-            &[0x23, low, high, sub, a, b, c, d],
-        ));
+        match choices.below(8) {
+            0..=3 => {
+                let request = [0x23, low, high, sub, a, b, c, d];
+                self.send(&Frame::standard(0x600 + own, &request));
+            }
+            4 => self.send(&Frame::standard(0x300 + own, &[a, b, c, d])),
+            5 => {
+                trace(|| format!("application: {index:04X}h:{sub:02X} = {id:X}"));
+                self.bus.with(0, |device, now| {
+                    let _ = device.set_value(Address::new(index, sub), &[a, b, c, d], now);
+                });
+            }
+            _ => self.move_to(1 + choices.below(127) as u8),
+        }
+        self.listen(0);
         self.owners.clear();
+    }
+
+    /// LSS gives the node another node ID, which it has from the next reset on.
+    fn move_to(&mut self, node: u8) {
+        for command in [[0x04, 1], [0x11, node], [0x04, 0]] {
+            let [first, second] = command;
+            self.send(&Frame::standard(0x7E5, &[first, second, 0, 0, 0, 0, 0, 0]));
+        }
+        if let Some(node) = NodeId::new(node) {
+            self.node = node;
+        }
+        self.send(&Frame::standard(0, &[0x82, 0]));
+        self.listen(10);
+        let is = self.bus.with(0, |device, _| device.node_id());
+        assert_eq!(is, Some(self.node), "LSS sets the node ID");
+        self.send(&Frame::standard(0, &[1, 0]));
     }
 }
 
