@@ -107,7 +107,7 @@
 //!
 //! The macro reports all errors at once: those of the call at their tokens, those of the EDS at its path with
 //! `file:line:column` in the text. It still makes the module from the valid parts, so that one mistake is
-//! one error.
+//! one error, and a statement that cannot be read does not hide the mistakes of other statements.
 //!
 //! Findings of `odkit check` that do not prevent a device become warnings of the compiler: those of a file at its path,
 //! one warning for each rule with its first place; those of a statement at its token. The warning is the lint

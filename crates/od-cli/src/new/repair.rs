@@ -2,7 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_eds::{Description, Eds, EntryDescription, Finding, ObjectDescription, Spanned, Value, say};
+use od_eds::patch::{self, Edit, Target};
+use od_eds::{
+    Description, Eds, EntryDescription, Fact, Finding, Key, ObjectDescription, Spanned, Value, say,
+};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// Changes of a description.
@@ -21,6 +24,45 @@ impl Notes {
         let members = format!("{object}:");
         self.removed.retain(|other| !other.starts_with(&members));
         self.removed.insert(object);
+    }
+
+    /// Adds what changed in an object, and why. Returns the values that changed.
+    fn changed(
+        &mut self,
+        index: u16,
+        old: &ObjectDescription,
+        new: &ObjectDescription,
+        why: &str,
+    ) -> BTreeSet<Address> {
+        let (was, is) = (*old.code, *new.code);
+        if was != is {
+            let (was, is) = (was.name(), is.name());
+            self.all
+                .push(format!("{index:04X}h: ObjectType {was} → {is}{why}"));
+        }
+        let subs: BTreeSet<u8> = old
+            .entries
+            .keys()
+            .chain(new.entries.keys())
+            .copied()
+            .collect();
+        let mut changed = BTreeSet::new();
+        for sub in subs {
+            let address = Address::new(index, sub);
+            match (old.entries.get(&sub), new.entries.get(&sub)) {
+                (Some(old), Some(new)) => {
+                    let what = changes(old, new);
+                    if what.is_empty() {
+                        continue;
+                    }
+                    self.all.push(format!("{address}: {what}{why}"));
+                }
+                (Some(_), None) => self.removed(address.to_string(), why),
+                (None, _) => self.all.push(format!("{address}: added{why}")),
+            }
+            changed.insert(address);
+        }
+        changed
     }
 }
 
@@ -42,10 +84,18 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
             return Ok(notes);
         }
         let mut progress = false;
+        let mut changed = BTreeSet::new();
         for error in &errors {
+            // Another change may have removed its cause: the next round shows it.
+            if error.object.is_some_and(|object| changed.contains(&object)) {
+                continue;
+            }
             let tries = tries.entry((error.code(), error.object)).or_default();
             *tries = tries.saturating_add(1);
-            progress |= step(description, error, *tries, &mut notes).is_some();
+            if let Some(values) = step(description, error, *tries, &mut notes) {
+                changed.extend(values);
+                progress = true;
+            }
         }
         if !progress {
             return Err(errors);
@@ -109,6 +159,9 @@ fn changes(old: &EntryDescription, new: &EntryDescription) -> String {
             all.push(format!("{key} {old} → {new}"));
         }
     };
+    let data_type =
+        |entry: &EntryDescription| entry.data_type.map_or("none", |own| own.name()).into();
+    compare("DataType", data_type(old), data_type(new));
     compare(
         "AccessType",
         old.access.name().into(),
@@ -187,7 +240,9 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
         }
         let is_mapping = matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
         if is_mapping && lost.contains(index) {
-            map_nothing(*index, object, notes);
+            let old = object.clone();
+            map_nothing(object);
+            notes.changed(*index, &old, object, ", because the mapping lost an entry");
         }
     }
     description.objects.retain(|index, object| {
@@ -199,13 +254,13 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
     });
 }
 
-/// Makes one change for an error; `None` if nothing more can be changed.
+/// Makes one change for an error and returns the values that it changed; `None` if nothing more can be changed.
 fn step(
     description: &mut Description,
     error: &Finding,
     tries: u8,
     notes: &mut Notes,
-) -> Option<()> {
+) -> Option<BTreeSet<Address>> {
     let mandatory = match error.code() {
         "E0601" => Some(0x1000),
         "E0602" => Some(0x1001),
@@ -216,17 +271,42 @@ fn step(
         description.objects.insert(index, standard(index)?);
         let note = format!("{index:04X}h: added, because it is mandatory");
         notes.all.push(note);
-        return Some(());
+        return Some(BTreeSet::new());
     }
     let address = error.object?;
     let mapped = mapped_by_rpdos(description);
-    let before = description.entry(address).cloned();
     let said = format!(" ({}): {}", error.code(), say(error, &Eds).message);
     let Address { index, sub } = address;
+    let is_mapping = matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
     let object = description.objects.get_mut(&index)?;
+    let before = object.clone();
     match (error.code(), tries) {
         ("E0305", 1) => object.code = Spanned::from(ObjectCode::Record),
-        ("E0309" | "E0310", 1) => count(object),
+        ("E0310", 1) => count(object),
+        ("E0309" | "E0509" | "E0510" | "E0604" | "E0605" | "E0606", 1)
+            if right_type(error).is_some() && object.entries.contains_key(&sub) =>
+        {
+            let target = if object.code.has_members() {
+                Target::member(index, sub)
+            } else {
+                Target::object(index)
+            };
+            // A value that the type does not allow is removed.
+            let _ = patch::apply(
+                description,
+                &[Edit::modify(target).data_type(right_type(error)?)],
+            );
+        }
+        ("E0606", 1) if object.code.has_members() && !object.entries.contains_key(&1) => {
+            let identity = standard(index)?;
+            object.entries.insert(1, identity.entries.get(&1)?.clone());
+        }
+        ("E0412" | "E0417" | "E0418", 1) if error.key == Some(Key::DefaultValue) => {
+            object.entries.get_mut(&sub)?.default = None;
+        }
+        (_, 1) if error.key == Some(Key::ParameterValue) => {
+            object.entries.get_mut(&sub)?.parameter = None;
+        }
         (code, 1) if code.starts_with("E04") => {
             let entry = object.entries.get_mut(&sub)?;
             (entry.low, entry.high) = (None, None);
@@ -235,16 +315,14 @@ fn step(
             let entry = object.entries.get_mut(&sub)?;
             (entry.default, entry.parameter) = (None, None);
         }
-        (code, 1)
-            if code.starts_with("E05") && matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) =>
-        {
+        (code, 1) if code.starts_with("E05") && is_mapping => {
             unmap(object, sub);
         }
         ("W0520" | "W0521" | "W0522" | "E0532", 1) => {
             let entry = object.entries.get_mut(&sub)?;
             switch_off(index, entry)?;
         }
-        (code, 1) if code.starts_with("E06") => {
+        ("E0643", 1) => {
             object.entries.get_mut(&sub)?.access = Spanned::from(right_access(&mapped, address));
         }
         (_, ..=2) if standard(index).is_some() => {
@@ -253,30 +331,27 @@ fn step(
         (_, 2) if sub > 0 => {
             object.entries.remove(&sub)?;
             count(object);
-            if matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) {
-                map_nothing(index, object, notes);
+            if is_mapping {
+                map_nothing(object);
             }
-            notes.removed(address.to_string(), &said);
-            return Some(());
         }
         (_, ..=3) if standard(index).is_none() => {
             description.objects.remove(&index)?;
             notes.removed(format!("{index:04X}h"), &said);
-            return Some(());
+            return Some(BTreeSet::from([address]));
         }
         _ => return None,
     }
-    let what = match (before, description.entry(address)) {
-        (Some(old), Some(new)) => changes(&old, new),
-        _ => String::new(),
-    };
-    let what = if what.is_empty() {
-        "changed".into()
-    } else {
-        what
-    };
-    notes.all.push(format!("{address}: {what}{said}"));
-    Some(())
+    Some(notes.changed(index, &before, description.objects.get(&index)?, &said))
+}
+
+/// The data type that a finding says is right.
+fn right_type(error: &Finding) -> Option<DataType> {
+    let mut facts = error.facts.iter();
+    facts.find_map(|(name, fact)| match fact {
+        Fact::Type(right) if *name == "right" => Some(*right),
+        _ => None,
+    })
 }
 
 /// Sets sub-index 0 to the highest sub-index.
@@ -296,16 +371,9 @@ fn count(object: &mut ObjectDescription) {
 }
 
 /// Sets the number of mapped objects to 0: after the loss of an entry, the others would make another PDO than the file has.
-fn map_nothing(index: u16, object: &mut ObjectDescription, notes: &mut Notes) {
+fn map_nothing(object: &mut ObjectDescription) {
     if let Some(entry) = object.entries.get_mut(&0) {
-        let old = entry.clone();
         (entry.default, entry.parameter) = (Some(Spanned::from(Value::Unsigned(0))), None);
-        let what = changes(&old, entry);
-        if !what.is_empty() {
-            notes.all.push(format!(
-                "{index:04X}h:00: {what}, because the mapping lost an entry"
-            ));
-        }
     }
 }
 
@@ -327,18 +395,12 @@ fn switch_off(index: u16, entry: &mut EntryDescription) -> Option<()> {
     Some(())
 }
 
-/// Removes a mapping entry, and the entries after it.
+/// Removes a mapping entry.
 fn unmap(object: &mut ObjectDescription, sub: u8) {
-    for (at, entry) in &mut object.entries {
-        if *at >= sub.max(1) {
-            entry.default = Some(Spanned::from(Value::Unsigned(0)));
-            entry.parameter = None;
-        }
+    if let (1.., Some(entry)) = (sub, object.entries.get_mut(&sub)) {
+        (entry.default, entry.parameter) = (Some(Spanned::from(Value::Unsigned(0))), None);
     }
-    if let Some(entry) = object.entries.get_mut(&0) {
-        let left = Value::Unsigned(u64::from(sub.saturating_sub(1)));
-        (entry.default, entry.parameter) = (Some(Spanned::from(left)), None);
-    }
+    map_nothing(object);
 }
 
 /// The three mandatory objects (CiA 301, 7.5.1), in their simplest form.

@@ -140,6 +140,65 @@ fn a_fix_gives_the_access_of_the_standard_and_says_old_and_new() {
     assert!(read(&folder, "Cargo.toml").contains("rust-version = \"1.89\""));
 }
 
+/// The section of a sub-object.
+fn member(section: &str, name: &str, data_type: u8, value: &str) -> String {
+    format!(
+        "[{section}]\nParameterName={name}\nDataType={data_type}\nAccessType=rw\nDefaultValue={value}\n"
+    )
+}
+
+#[test]
+fn each_change_is_listed_with_old_and_new_and_leaves_nothing_wrong() {
+    let text = [
+        "[DeviceInfo]\nProductName=Gate\n",
+        "[1800]\nParameterName=TPDO\nObjectType=9\nSubNumber=3\n",
+        &member("1800sub0", "Count", 5, "2"),
+        &member("1800sub1", "COB-ID", 7, "$NODEID+0x180"),
+        &member("1800sub2", "Type", 6, "255"),
+        // The first two entries are of objects that do not exist, the third one is right.
+        "[1A00]\nParameterName=Mapping\nObjectType=9\nSubNumber=4\n",
+        &member("1A00sub0", "Count", 5, "3"),
+        &member("1A00sub1", "First", 7, "0x60410010"),
+        &member("1A00sub2", "Second", 7, "0x60610008"),
+        &member("1A00sub3", "Third", 7, "0x20000008"),
+        "[2000]\nParameterName=Opening\nDataType=5\nAccessType=ro\nPDOMapping=1\n",
+        // A count that is no UNSIGNED8, and a value of a wrong type with a limit that is right.
+        "[2001]\nParameterName=Speeds\nObjectType=8\nSubNumber=2\n",
+        &member("2001sub0", "Count", 0x15, "1"),
+        &member("2001sub1", "Speed", 6, "7"),
+        "[1000]\nParameterName=Device type\nDataType=6\nAccessType=const\nDefaultValue=4\nHighLimit=9\n",
+        "[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n",
+        &member("1018sub0", "Count", 5, "3"),
+        &member("1018sub3", "Revision number", 7, "0x10002"),
+    ]
+    .concat();
+    let eds = file("new-each-change.eds", &text).display().to_string();
+    let folder = fresh("new-each-change");
+    let path = folder.display().to_string();
+    let made = odkit(&["new", &eds, "--name", "gate", "--path", &path], "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    let readme = read(&folder, "README.md");
+    for told in [
+        "1000h:00: DataType UNSIGNED16 → UNSIGNED32 (E0604)",
+        "1018h:01: added (E0606)",
+        "1800h:02: DataType UNSIGNED16 → UNSIGNED8 (E0509)",
+        "1A00h:00: DefaultValue 3 → 0 (E0501)",
+        "1A00h:01: DefaultValue 0x60410010 → 0 (E0501)",
+        "1A00h:02: DefaultValue 0x60610008 → 0 (E0501)",
+        "2001h:00: DataType INTEGER64 → UNSIGNED8 (E0309)",
+    ] {
+        assert!(readme.contains(told), "{told}\n{readme}");
+    }
+    assert!(!readme.contains(": changed"), "{readme}");
+    assert!(!readme.contains("Still wrong"), "{readme}");
+    let copy = read(&folder, "gate.eds");
+    assert!(copy.contains("DefaultValue=0x20000008"), "{copy}");
+    assert!(
+        copy.contains("HighLimit=0x9") && copy.contains("=0x10002"),
+        "{copy}"
+    );
+}
+
 #[test]
 fn a_merge_conflict_is_left_to_the_user() {
     let text = "[DeviceInfo]\nProductName=Two\n[2000]\nParameterName=T\nDataType=5\nAccessType=rw\n\
