@@ -54,6 +54,13 @@ static int32_t memory_write(void *context, uint32_t offset, const uint8_t *from,
     return 0;
 }
 
+static int32_t memory_erase(void *context, uint32_t offset)
+{
+    (void)context;
+    (void)offset;
+    return 1;
+}
+
 static void on_reset(void *context, uint8_t reset)
 {
     CHECK(context == memory);
@@ -176,6 +183,11 @@ static void wrong_devices(void)
     bad.storage.word = 3;
     CHECK(odkit_power_on(ODKIT_NODE, 0, 1, &bad) == ODKIT_ARGUMENT);
     bad.storage.word = 64;
+    CHECK(odkit_power_on(ODKIT_NODE, 0, 1, &bad) == ODKIT_ARGUMENT);
+    /* A word that is longer than a page. */
+    bad.storage.page = 8;
+    bad.storage.word = 16;
+    bad.storage.erase = memory_erase;
     CHECK(odkit_power_on(ODKIT_NODE, 0, 1, &bad) == ODKIT_ARGUMENT);
     CHECK(resets == 0);
 }

@@ -312,7 +312,7 @@ typedef struct odkit_storage {
    */
   uint32_t page;
   /*
-   Bytes that are written at once: a power of two up to 32; 0 means 1.
+   Bytes that are written at once: a power of two up to 32 that divides `page`; 0 means 1.
    */
   uint32_t word;
   /*

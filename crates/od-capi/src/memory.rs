@@ -24,7 +24,11 @@ impl odkit_storage {
         }
         let has_page = match self.page {
             0 => true,
-            page => self.erase.is_some() && self.capacity.is_multiple_of(page),
+            page => {
+                self.erase.is_some()
+                    && self.capacity.is_multiple_of(page)
+                    && page.is_multiple_of(self.word.max(1))
+            }
         };
         let fits = matches!(self.word, 0) || self.word.is_power_of_two();
         self.read.is_some()

@@ -130,7 +130,7 @@ pub struct odkit_storage {
     pub capacity: u32,
     /// Number of bytes of a page of flash; 0 for an EEPROM.
     pub page: u32,
-    /// Bytes that are written at once: a power of two up to 32; 0 means 1.
+    /// Bytes that are written at once: a power of two up to 32 that divides `page`; 0 means 1.
     pub word: u32,
     /// Fills `to` with `len` bytes from `offset` on.
     pub read: Option<
