@@ -1,5 +1,7 @@
 //! Texts made to be slow or large: memory and time grow only with their length.
 
+use std::collections::BTreeMap;
+
 use od_eds::{Parsed, load, parse};
 
 fn count(parsed: &Parsed, code: &str) -> usize {
@@ -178,7 +180,14 @@ fn time_grows_with_the_length_of_a_text() {
             assert!(end - start <= most, "{name}: {} ms", (end - start) * 10);
         }
         assert!(count(&parsed, code) > 0, "{name}: {code} is missing");
+        // The findings of a rule differ in their numbers only: the first and each 50th show how long they are.
+        let mut of_rule: BTreeMap<&str, usize> = BTreeMap::new();
         for finding in &parsed.findings {
+            let number = of_rule.entry(finding.code()).or_default();
+            *number += 1;
+            if *number % 50 != 1 {
+                continue;
+            }
             let said = od_eds::say(finding, &od_eds::Eds);
             let length = said.message.chars().count().max(said.help.chars().count());
             assert!(

@@ -72,7 +72,7 @@ fn read(
 ) -> Description {
     #[cfg(feature = "xdd")]
     if is_xml(text) {
-        return xdd::parse(text, see, log);
+        return xdd::parse(text, file, see, log);
     }
     let description = sorted::eds(text, file, see, log);
     modules::check(&description, log);

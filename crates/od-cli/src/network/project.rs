@@ -3,8 +3,8 @@
 
 use od_eds::Finding;
 use od_eds::network::{
-    Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, configure,
-    consume_heartbeats, misspelled_key,
+    Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
+    configure, consume_heartbeats, misspelled_key, not_mappable,
 };
 use od_model::Address;
 
@@ -75,14 +75,75 @@ const PDO_KEYS: &[&str] = &[
 ];
 
 /// A section of a project: its name and its keys.
+#[derive(Clone, Copy)]
 struct Section<'a> {
     name: &'a str,
+    /// Line of the name.
+    line: u32,
     yaml: &'a Yaml,
 }
 
-impl Section<'_> {
+impl<'a> Section<'a> {
+    /// A part of the section, with keys of its own.
+    const fn part(self, yaml: &'a Yaml) -> Self {
+        Self {
+            line: yaml.span.line,
+            yaml,
+            ..self
+        }
+    }
+
     fn wrong(&self, key: &str) -> String {
-        format!("{}: {key} is not valid", self.name)
+        let line = self.line_of(key);
+        format!("line {line}: {}: {key} is not valid", self.name)
+    }
+
+    /// The line of a key's value; that of the section if the key is missing.
+    fn line_of(&self, key: &str) -> u32 {
+        let value = self.yaml.get(key);
+        value.map_or(self.line, |value| value.span.line)
+    }
+
+    /// A PDO below `rpdo` or `tpdo`: its number and its value.
+    fn pdo_of(&self, key: &str, number: u16) -> Option<&'a (Yaml, Yaml)> {
+        let mut entries = self.yaml.get(key)?.entries().iter();
+        entries.find(|(own, _)| own.integer() == Some(number.into()))
+    }
+
+    /// The part of the text with a setting: its value, or the number of a PDO; `None` if the project does not have it.
+    fn place_of(&self, setting: Setting) -> Option<&'a Yaml> {
+        match setting {
+            Setting::Key(key) => self.yaml.get(key),
+            Setting::Pdo(key, number) => self.pdo_of(key, number).map(|(own, _)| own),
+            Setting::Mapped(key, number, at) => {
+                self.pdo_of(key, number)?.1.get("mapping")?.list().get(at)
+            }
+            Setting::Sdo(at) => self.yaml.get("sdo")?.list().get(at),
+        }
+    }
+
+    /// An error about a setting that the device cannot have.
+    fn unfit(&self, unfit: Unfit) -> String {
+        let place = self.place_of(unfit.setting);
+        let line = place.map_or(self.line, |place| place.span.line);
+        format!("line {line}: {}", unfit.why)
+    }
+
+    /// The findings about objects in the mappings of the PDOs that the device cannot map.
+    fn unmapped(&self, node: &Node, wanted: &Configuration) -> Vec<Finding> {
+        let pdos = [("rpdo", &wanted.rpdo), ("tpdo", &wanted.tpdo)];
+        let mut found = Vec::new();
+        for (key, number, pdo) in pdos
+            .iter()
+            .flat_map(|(key, pdos)| pdos.iter().map(|(number, pdo)| (*key, *number, pdo)))
+        {
+            for (at, address) in pdo.mapping.iter().flatten().enumerate() {
+                let entry = self.place_of(Setting::Mapped(key, number, at));
+                let span = entry.map(|entry| entry.span).unwrap_or_default();
+                found.extend(not_mappable(node, key == "rpdo", *address, span));
+            }
+        }
+        found
     }
 
     /// A number of a key; `None` if the key is missing.
@@ -110,7 +171,7 @@ impl Section<'_> {
     }
 
     /// The entries below a key, whose own keys are numbers.
-    fn numbered<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, &Yaml)>, String> {
+    fn numbered<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, &'a Yaml)>, String> {
         let entries = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
         let entries = entries.map(|(number, value)| {
             let number = number.integer().and_then(|number| T::try_from(number).ok());
@@ -135,11 +196,8 @@ impl Section<'_> {
         Ok(Address::new(index, self.number("sub_index")?.unwrap_or(0)))
     }
 
-    fn list(&self, key: &str) -> &[Yaml] {
-        match self.yaml.get(key) {
-            Some(Yaml::List(list)) => list,
-            _ => &[],
-        }
+    fn list(&self, key: &str) -> &'a [Yaml] {
+        self.yaml.get(key).map_or(&[], Yaml::list)
     }
 
     fn pdo(&self) -> Result<PdoConfiguration, String> {
@@ -150,15 +208,7 @@ impl Section<'_> {
         };
         let mapping = self.yaml.get("mapping").map(|_| {
             let entries = self.list("mapping").iter();
-            entries
-                .map(|yaml| {
-                    Section {
-                        name: self.name,
-                        yaml,
-                    }
-                    .address()
-                })
-                .collect()
+            entries.map(|yaml| self.part(yaml).address()).collect()
         });
         Ok(PdoConfiguration {
             cob_id,
@@ -177,14 +227,7 @@ impl Section<'_> {
             if !(1..=512).contains(&number) {
                 return Err(self.wrong(key));
             }
-            Ok((
-                number,
-                Section {
-                    name: self.name,
-                    yaml,
-                }
-                .pdo()?,
-            ))
+            Ok((number, self.part(yaml).pdo()?))
         });
         pdos.collect()
     }
@@ -192,8 +235,8 @@ impl Section<'_> {
     /// The findings about misspelled keys. Drivers of ros2_canopen have keys of their own.
     fn misspelled(&self) -> Vec<Finding> {
         let unknown = |yaml: &Yaml, known: &'static [&'static str]| -> Vec<Finding> {
-            let keys = yaml.entries().iter().map(|(key, _)| key.text());
-            keys.filter_map(|key| misspelled_key(self.name, &key, known))
+            let keys = yaml.entries().iter();
+            keys.filter_map(|(key, _)| misspelled_key(self.name, &key.text(), known, key.span))
                 .collect()
         };
         let mut findings = unknown(self.yaml, KEYS);
@@ -209,10 +252,7 @@ impl Section<'_> {
 
     fn configuration(&self) -> Result<Configuration, String> {
         let sdo = self.list("sdo").iter().map(|yaml| {
-            let one = Section {
-                name: self.name,
-                yaml,
-            };
+            let one = self.part(yaml);
             Ok((one.address()?, one.number("value")?.unwrap_or(0)))
         });
         Ok(Configuration {
@@ -292,9 +332,9 @@ impl Section<'_> {
     }
 }
 
-/// The sections of the slaves, by name. In the form of ros2_canopen each is a node below `nodes` with the keys of
+/// The sections of the slaves, with their names. In the form of ros2_canopen each is a node below `nodes` with the keys of
 /// `defaults` that it does not have itself (as `cogen_dcf` merges them: key by key, not below a key).
-fn slaves(whole: &Yaml) -> Vec<(String, Yaml)> {
+fn slaves(whole: &Yaml) -> Vec<(Yaml, Yaml)> {
     let is_own = |name: &str| matches!(name, "master" | "options") || name.starts_with('.');
     // A section `nodes` with a file is a slave of this name.
     let nodes = whole
@@ -302,8 +342,10 @@ fn slaves(whole: &Yaml) -> Vec<(String, Yaml)> {
         .filter(|nodes| nodes.get("dcf").is_none());
     let Some(nodes) = nodes else {
         let all = whole.entries().iter();
-        let all = all.map(|(name, yaml)| (name.text(), yaml.clone()));
-        return all.filter(|(name, _)| !is_own(name)).collect();
+        return all
+            .filter(|(name, _)| !is_own(&name.text()))
+            .cloned()
+            .collect();
     };
     let defaults = whole.get("defaults").map_or(&[][..], Yaml::entries);
     let merged = |yaml: &Yaml| {
@@ -311,10 +353,10 @@ fn slaves(whole: &Yaml) -> Vec<(String, Yaml)> {
             .iter()
             .filter(|(key, _)| yaml.get(&key.text()).is_none());
         let own = yaml.entries().iter();
-        Yaml::Map(own.chain(missing).cloned().collect())
+        yaml.with(own.chain(missing).cloned().collect())
     };
     let all = nodes.entries().iter();
-    all.map(|(name, yaml)| (name.text(), merged(yaml)))
+    all.map(|(name, yaml)| (name.clone(), merged(yaml)))
         .collect()
 }
 
@@ -331,6 +373,7 @@ pub(super) fn read(
     if let Some(yaml) = whole.get("options") {
         let own = Section {
             name: "options",
+            line: yaml.span.line,
             yaml,
         };
         settings.dcf_path = own.text("dcf_path").unwrap_or_default();
@@ -339,35 +382,46 @@ pub(super) fn read(
     }
     let master = whole
         .get("master")
-        .ok_or("the section `master` is missing")?;
+        .ok_or("the section `master` is missing; add it with its `node_id`")?;
     let master = Section {
         name: "master",
+        line: master.span.line,
         yaml: master,
     }
     .master(&settings)?;
     let mut nodes = Vec::new();
     let mut findings = Vec::new();
-    for (name, yaml) in slaves(&whole) {
+    for (key, yaml) in slaves(&whole) {
+        let name = key.text();
         let section = Section {
             name: &name,
+            line: key.span.line,
             yaml: &yaml,
         };
         findings.extend(section.misspelled());
+        let line = section.line_of("dcf");
         let path = section
             .text("dcf")
-            .ok_or_else(|| format!("{name}: the key `dcf` is missing"))?;
-        let description = load(&path).map_err(|why| format!("{name}: {path}: {why}"))?;
+            .ok_or_else(|| format!("line {line}: {name}: the key `dcf` is missing"))?;
+        let description =
+            load(&path).map_err(|why| format!("line {line}: {name}: {path}: {why}"))?;
         let given = section.number("node_id")?;
+        if given.is_some_and(|id| !(1..=127).contains(&id)) {
+            return Err(format!("{}: write 1 to 127", section.wrong("node_id")));
+        }
         let id = given
             .or(description.commissioned_node_id())
             .filter(|id| (1..=127).contains(id));
         let Some(id) = id else {
+            let line = section.line;
             return Err(format!(
-                "{name}: the node ID is missing; add `node_id`, 1 to 127"
+                "line {line}: {name}: the node ID is missing; add `node_id`, 1 to 127"
             ));
         };
         let mut node = Node::new(name.clone(), id, description);
-        configure(&mut node, &section.configuration()?, &mut settings)?;
+        let wanted = section.configuration()?;
+        findings.extend(section.unmapped(&node, &wanted));
+        configure(&mut node, &wanted, &mut settings).map_err(|unfit| section.unfit(unfit))?;
         nodes.push(node);
     }
     consume_heartbeats(&master, &mut nodes)?;

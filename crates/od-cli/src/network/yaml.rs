@@ -2,14 +2,21 @@
 
 use std::collections::BTreeMap;
 
+use od_eds::Span;
 use saphyr_parser::{Event, Parser, ScalarStyle};
 
 /// Maximum number of values of a text, including those that aliases repeat.
 const LIMIT: usize = 100_000;
 
-/// A value.
+/// A value, and the place where it begins. That of an alias is the place of its anchor.
+#[derive(Clone, Debug)]
+pub(super) struct Yaml {
+    value: Value,
+    pub(super) span: Span,
+}
+
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum Yaml {
+enum Value {
     Null,
     Bool(bool),
     Integer(i128),
@@ -20,22 +27,52 @@ pub(super) enum Yaml {
     Map(Vec<(Yaml, Yaml)>),
 }
 
+impl PartialEq for Yaml {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
 impl Yaml {
+    /// A mapping of these entries, in the place of this value.
+    pub(super) fn with(&self, entries: Vec<(Self, Self)>) -> Self {
+        Self {
+            value: Value::Map(entries),
+            span: self.span,
+        }
+    }
+
     /// Reads the first document of a text.
     ///
     /// # Errors
     /// The text is not YAML, or too large; in words, with its line.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let mut tree = Tree::default();
+        let mut places = Places::new(text);
         for event in Parser::new_from_str(text) {
-            let (event, span) = event.map_err(|error| error.to_string())?;
-            match tree.take(event) {
+            let (event, range) = event.map_err(|error| error.to_string())?;
+            let (start, end) = (range.start, range.end);
+            let from = places.byte(start.index());
+            let span = Span {
+                start: from,
+                // The end of a block is behind the begin of the next value.
+                end: match event {
+                    Event::Scalar(..) => places.byte(end.index()),
+                    _ => from,
+                },
+                line: start.line() as u32,
+                column: start.col() as u32 + 1,
+            };
+            match tree.take(event, span) {
                 Ok(Some(whole)) => return Ok(whole),
                 Ok(None) => {}
-                Err(why) => return Err(format!("line {}: {why}", span.start.line())),
+                Err(why) => return Err(format!("line {}: {why}", span.line)),
             }
         }
-        Ok(Self::Null)
+        Ok(Self {
+            value: Value::Null,
+            span: Span::default(),
+        })
     }
 
     /// The value of a key; `None` if it is missing.
@@ -46,64 +83,72 @@ impl Yaml {
             .map(|(_, value)| value)
     }
 
+    /// The values of a list; empty if this is not one.
+    pub(super) fn list(&self) -> &[Self] {
+        match &self.value {
+            Value::List(list) => list,
+            _ => &[],
+        }
+    }
+
     /// Keys and values; empty if this is not a mapping.
     pub(super) fn entries(&self) -> &[(Self, Self)] {
-        match self {
-            Self::Map(entries) => entries,
+        match &self.value {
+            Value::Map(entries) => entries,
             _ => &[],
         }
     }
 
     /// Converted as by Python's `str`.
     pub(super) fn text(&self) -> String {
-        match self {
-            Self::Null => "None".into(),
-            Self::Bool(true) => "True".into(),
-            Self::Bool(false) => "False".into(),
-            Self::Integer(number) => number.to_string(),
-            Self::Real(number) => format!("{number:?}"),
-            Self::Text(text) => text.clone(),
-            Self::List(_) | Self::Map(_) => String::new(),
+        match &self.value {
+            Value::Null => "None".into(),
+            Value::Bool(true) => "True".into(),
+            Value::Bool(false) => "False".into(),
+            Value::Integer(number) => number.to_string(),
+            Value::Real(number) => format!("{number:?}"),
+            Value::Text(text) => text.clone(),
+            Value::List(_) | Value::Map(_) => String::new(),
         }
     }
 
     /// Converted as by Python's `int`: a real without its fraction, a text of decimal digits.
     pub(super) fn integer(&self) -> Option<i128> {
-        match self {
-            Self::Bool(flag) => Some((*flag).into()),
-            Self::Integer(number) => Some(*number),
-            Self::Real(number) if number.is_finite() => Some(*number as i128),
-            Self::Text(text) => text.trim().parse().ok(),
+        match &self.value {
+            Value::Bool(flag) => Some((*flag).into()),
+            Value::Integer(number) => Some(*number),
+            Value::Real(number) if number.is_finite() => Some(*number as i128),
+            Value::Text(text) => text.trim().parse().ok(),
             _ => None,
         }
     }
 
     /// Converted as by Python's `float`.
     pub(super) fn real(&self) -> Option<f64> {
-        match self {
-            Self::Real(number) => Some(*number),
-            Self::Text(text) => text.trim().parse().ok(),
-            other => other.integer().map(|number| number as f64),
+        match &self.value {
+            Value::Real(number) => Some(*number),
+            Value::Text(text) => text.trim().parse().ok(),
+            _ => self.integer().map(|number| number as f64),
         }
     }
 
     /// Converted as by Python's `bool`: a text that is not empty is true.
     pub(super) fn is_true(&self) -> bool {
-        match self {
-            Self::Null => false,
-            Self::Bool(flag) => *flag,
-            Self::Integer(number) => *number != 0,
-            Self::Real(number) => *number != 0.0,
-            Self::Text(text) => !text.is_empty(),
-            Self::List(list) => !list.is_empty(),
-            Self::Map(entries) => !entries.is_empty(),
+        match &self.value {
+            Value::Null => false,
+            Value::Bool(flag) => *flag,
+            Value::Integer(number) => *number != 0,
+            Value::Real(number) => *number != 0.0,
+            Value::Text(text) => !text.is_empty(),
+            Value::List(list) => !list.is_empty(),
+            Value::Map(entries) => !entries.is_empty(),
         }
     }
 
     fn size(&self) -> usize {
-        1 + match self {
-            Self::List(list) => list.iter().map(Self::size).sum(),
-            Self::Map(entries) => entries
+        1 + match &self.value {
+            Value::List(list) => list.iter().map(Self::size).sum(),
+            Value::Map(entries) => entries
                 .iter()
                 .map(|(key, value)| key.size() + value.size())
                 .sum(),
@@ -112,8 +157,32 @@ impl Yaml {
     }
 }
 
+/// Bytes of characters that are asked for in the order of the text.
+struct Places<'a> {
+    text: &'a str,
+    chars: usize,
+    bytes: usize,
+}
+
+impl<'a> Places<'a> {
+    const fn new(text: &'a str) -> Self {
+        let (chars, bytes) = (0, 0);
+        Self { text, chars, bytes }
+    }
+
+    /// The byte at which this character begins.
+    fn byte(&mut self, char: usize) -> u32 {
+        let rest = self.text[self.bytes..].chars();
+        let passed = rest.take(char.saturating_sub(self.chars));
+        self.bytes += passed.map(char::len_utf8).sum::<usize>();
+        self.chars = self.chars.max(char);
+        self.bytes as u32
+    }
+}
+
 /// A list or mapping that is not complete yet.
 struct Open {
+    span: Span,
     is_map: bool,
     anchor: usize,
     values: Vec<Yaml>,
@@ -128,16 +197,16 @@ struct Tree {
 
 impl Tree {
     /// Handles the next event; returns the whole value when it is complete.
-    fn take(&mut self, event: Event<'_>) -> Result<Option<Yaml>, String> {
+    fn take(&mut self, event: Event<'_>, span: Span) -> Result<Option<Yaml>, String> {
         let (anchor, value) = match event {
             Event::Scalar(text, style, anchor, tag) => {
                 let is_plain = style == ScalarStyle::Plain && tag.is_none();
                 let value = if is_plain {
                     scalar(&text)
                 } else {
-                    Yaml::Text(text.into_owned())
+                    Value::Text(text.into_owned())
                 };
-                (anchor, value)
+                (anchor, Yaml { value, span })
             }
             Event::Alias(anchor) => {
                 let value = self.anchors.get(&anchor).cloned();
@@ -147,6 +216,7 @@ impl Tree {
                 let is_map = matches!(event, Event::MappingStart(..));
                 let values = Vec::new();
                 self.open.push(Open {
+                    span,
                     is_map,
                     anchor,
                     values,
@@ -154,8 +224,15 @@ impl Tree {
                 return Ok(None);
             }
             Event::SequenceEnd | Event::MappingEnd => match self.open.pop() {
-                Some(open) if open.is_map => (open.anchor, map(open.values)?),
-                Some(open) => (open.anchor, Yaml::List(open.values)),
+                Some(open) => {
+                    let value = if open.is_map {
+                        map(open.values)?
+                    } else {
+                        Value::List(open.values)
+                    };
+                    let span = open.span;
+                    (open.anchor, Yaml { value, span })
+                }
                 None => return Ok(None),
             },
             _ => return Ok(None),
@@ -179,34 +256,34 @@ impl Tree {
 
 /// A mapping from alternating keys and values: the last of equal keys is used, and `<<` adds missing
 /// entries of other mappings.
-fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
+fn map(values: Vec<Yaml>) -> Result<Value, String> {
     let mut entries = Entries::default();
     let mut merged = Vec::new();
     let mut values = values.into_iter();
     while let (Some(key), Some(value)) = (values.next(), values.next()) {
-        if key == Yaml::Text("<<".into()) {
-            match value {
-                Yaml::Map(others) => merged.extend(others),
-                Yaml::List(lists) => {
+        if key.value == Value::Text("<<".into()) {
+            match value.value {
+                Value::Map(others) => merged.extend(others),
+                Value::List(lists) => {
                     merged.extend(lists.into_iter().flat_map(|list| list.entries().to_vec()));
                 }
                 _ => return Err("`<<` needs a mapping".into()),
             }
         } else {
-            *entries.value(key) = value;
+            entries.set(key, value);
         }
     }
     // Merged entries come first, as in PyYAML.
     let own = std::mem::take(&mut entries);
     for (key, value) in merged {
         if !entries.has(&key) {
-            *entries.value(key) = value;
+            entries.set(key, value);
         }
     }
     for (key, value) in own.all {
-        *entries.value(key) = value;
+        entries.set(key, value);
     }
-    Ok(Yaml::Map(entries.all))
+    Ok(Value::Map(entries.all))
 }
 
 /// The entries of a mapping, with the place of each key, so that a long mapping takes no longer for an entry.
@@ -219,42 +296,42 @@ struct Entries {
 impl Entries {
     /// The text of a key by which it is found: equal keys have equal texts.
     fn name(key: &Yaml) -> String {
-        format!("{key:?}")
+        format!("{:?}", key.value)
     }
 
     fn has(&self, key: &Yaml) -> bool {
         self.places.contains_key(&Self::name(key))
     }
 
-    /// The value of a key, which is added if it is new.
-    fn value(&mut self, key: Yaml) -> &mut Yaml {
+    /// Sets the value of a key, which is added if it is new.
+    fn set(&mut self, key: Yaml, value: Yaml) {
         let place = *self
             .places
             .entry(Self::name(&key))
             .or_insert(self.all.len());
-        if place == self.all.len() {
-            self.all.push((key, Yaml::Null));
+        match self.all.get_mut(place) {
+            Some((_, own)) => *own = value,
+            None => self.all.push((key, value)),
         }
-        &mut self.all[place].1
     }
 }
 
 /// A plain scalar by the rules of YAML 1.1.
-fn scalar(text: &str) -> Yaml {
+fn scalar(text: &str) -> Value {
     match text {
-        "" | "~" | "null" | "Null" | "NULL" => return Yaml::Null,
+        "" | "~" | "null" | "Null" | "NULL" => return Value::Null,
         "yes" | "Yes" | "YES" | "true" | "True" | "TRUE" | "on" | "On" | "ON" => {
-            return Yaml::Bool(true);
+            return Value::Bool(true);
         }
         "no" | "No" | "NO" | "false" | "False" | "FALSE" | "off" | "Off" | "OFF" => {
-            return Yaml::Bool(false);
+            return Value::Bool(false);
         }
         _ => {}
     }
     let number = number(text)
-        .map(Yaml::Integer)
-        .or_else(|| real(text).map(Yaml::Real));
-    number.unwrap_or_else(|| Yaml::Text(text.into()))
+        .map(Value::Integer)
+        .or_else(|| real(text).map(Value::Real));
+    number.unwrap_or_else(|| Value::Text(text.into()))
 }
 
 fn number(text: &str) -> Option<i128> {
@@ -315,19 +392,19 @@ mod tests {
     #[test]
     fn scalars_are_those_of_yaml_1_1() {
         for (text, expected) in [
-            ("0x1F", Yaml::Integer(31)),
-            ("-0x1F", Yaml::Integer(-31)),
-            ("010", Yaml::Integer(8)),
-            ("1_000", Yaml::Integer(1000)),
-            ("1:30", Yaml::Integer(90)),
-            ("0b11", Yaml::Integer(3)),
-            ("089", Yaml::Text("089".into())),
-            ("1.5", Yaml::Real(1.5)),
-            ("1e3", Yaml::Text("1e3".into())),
-            ("1.0e+3", Yaml::Real(1000.0)),
-            ("yes", Yaml::Bool(true)),
-            ("~", Yaml::Null),
-            ("auto", Yaml::Text("auto".into())),
+            ("0x1F", Value::Integer(31)),
+            ("-0x1F", Value::Integer(-31)),
+            ("010", Value::Integer(8)),
+            ("1_000", Value::Integer(1000)),
+            ("1:30", Value::Integer(90)),
+            ("0b11", Value::Integer(3)),
+            ("089", Value::Text("089".into())),
+            ("1.5", Value::Real(1.5)),
+            ("1e3", Value::Text("1e3".into())),
+            ("1.0e+3", Value::Real(1000.0)),
+            ("yes", Value::Bool(true)),
+            ("~", Value::Null),
+            ("auto", Value::Text("auto".into())),
         ] {
             assert_eq!(scalar(text), expected, "{text}");
         }
@@ -338,7 +415,7 @@ mod tests {
         let text = ".base: &base {a: 1, b: [1, 2]}\nx:\n  <<: *base\n  a: 3\n  a: 4\n";
         let whole = Yaml::read(text).expect("YAML");
         let x = whole.get("x").expect("x");
-        assert_eq!(x.get("a"), Some(&Yaml::Integer(4)));
+        assert_eq!(x.get("a").and_then(Yaml::integer), Some(4));
         assert_eq!(x.get("b").map(Yaml::size), Some(3));
         let mut bomb = String::from("a0: &a0 [1,1,1,1,1,1,1,1,1,1]\n");
         for level in 1..10 {
@@ -348,5 +425,18 @@ mod tests {
         }
         assert!(Yaml::read(&bomb).is_err_and(|why| why.contains("100000")));
         assert!(Yaml::read("a: [1").is_err());
+    }
+
+    #[test]
+    fn values_know_their_places() {
+        let text = "# é\na: &x {b: ü, c: 5}\nd:\n  - *x\n  - 7\n";
+        let whole = Yaml::read(text).expect("YAML");
+        let place = |yaml: &Yaml| (yaml.span.line, yaml.span.column);
+        let c = whole.get("a").and_then(|a| a.get("c")).expect("c");
+        assert_eq!(place(c), (2, 17));
+        assert_eq!(&text[c.span.start as usize..c.span.end as usize], "5");
+        let list = whole.get("d").map_or(&[][..], Yaml::list);
+        let lines: Vec<u32> = list.iter().map(|yaml| yaml.span.line).collect();
+        assert_eq!(lines, [2, 5], "an alias is where its anchor is");
     }
 }

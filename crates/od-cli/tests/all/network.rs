@@ -166,7 +166,7 @@ fn contradictions_between_nodes_are_reported() {
         "error[E1202]: TPDO 1 of a and TPDO 1 of c have CAN-ID 185h",
         "error[E1204]: e waits 100 ms for the heartbeat of d, which comes every 100 ms",
         "warning[W1203]: heartbeat consumer 1016h:01 of f waits for the heartbeat of node 99",
-        "warning[W1208]: d: `hartbeat_producer` is not a key of dcfgen\n",
+        "warning[W1208]: d: `hartbeat_producer` is not a key of dcfgen\n  --> ",
         "warning[W1205]: periodic frames take up to ",
     ] {
         assert!(run.err.contains(said), "{said}\n{}", run.err);
@@ -194,7 +194,7 @@ fn a_text_that_is_not_a_project_is_refused() {
         (
             "dcf",
             "master: {}\nx: {node_id: 5}\n",
-            "x: the key `dcf` is missing",
+            "line 2: x: the key `dcf` is missing",
         ),
         (
             "file",
@@ -210,16 +210,35 @@ fn a_text_that_is_not_a_project_is_refused() {
     for (keys, said) in [
         (
             "  sdo: [{index: 0x5FFF}]\n",
-            "x: object 5FFFh:00 does not exist",
+            "line 5: x: object 5FFFh:00 does not exist",
         ),
         (
             "  sdo: [{index: 0x1017, value: 70000}]\n",
-            "x: 1017h:00: 70000 is not a valid UNSIGNED16",
+            "line 5: x: 1017h:00: 70000 is not a valid UNSIGNED16",
         ),
-        ("  rpdo: {1: {}}\n", "x: object 1400h does not exist"),
+        (
+            "  rpdo: {1: {}}\n",
+            "line 5: x: object 1400h does not exist",
+        ),
         (
             "  heartbeat_producer: fast\n",
-            "x: heartbeat_producer is not valid",
+            "line 5: x: heartbeat_producer is not valid",
+        ),
+        (
+            "  heartbeat_producer: 70000\n",
+            "line 5: x: 1017h:00: 70000 is not a valid UNSIGNED16",
+        ),
+        (
+            "  tpdo:\n    1:\n      mapping:\n        - {index: 0x6004}\n        - {index: 0x6999}\n",
+            "line 9: x: object 6999h:00 does not exist",
+        ),
+        (
+            "  tpdo:\n    1:\n      transmission: 300\n",
+            "line 6: x: 1800h:02: 300 is not a valid UNSIGNED8",
+        ),
+        (
+            "  tpdo:\n    1:\n      transmission: slow\n",
+            "line 7: x: transmission is not valid",
         ),
     ] {
         let (run, _) = network("keys", "keys.yml", &project(keys));

@@ -86,7 +86,8 @@ fn every_sentence_is_used_and_filled() {
     let is_said = |code: &str| {
         cfg!(feature = "xdd")
             || ![
-                "E0113", "E0114", "E0115", "E0429", "W0120", "W0204", "W0252", "W0406", "W0638",
+                "E0113", "E0114", "E0115", "E0121", "E0429", "W0120", "W0204", "W0217", "W0252",
+                "W0406", "W0638", "W0658",
             ]
             .contains(&code)
     };
@@ -226,7 +227,16 @@ fn faults_of_networks() -> Vec<Finding> {
     for list in crate::network::node_lists(list, &dcf).unwrap() {
         found.extend(list.findings);
     }
-    found.extend(crate::network::misspelled_key("a", "nodeid", &["node_id"]));
+    let span = crate::span::Span::default();
+    let misspelled = crate::network::misspelled_key("a", "nodeid", &["node_id"], span);
+    found.extend(misspelled);
+    let values =
+        "[2000]\nDataType=5\nAccessType=ro\nPDOMapping=1\n[2001]\nDataType=5\nAccessType=rw\n";
+    let mapping = node("d", 3, values);
+    for index in [0x2000, 0x2001] {
+        let address = od_model::Address::new(index, 0);
+        found.extend(crate::network::not_mappable(&mapping, true, address, span));
+    }
     found
 }
 

@@ -12,16 +12,19 @@ use super::node::Node;
 /// A PDO that is not valid (bit 31 of its COB-ID).
 const INVALID: u32 = 1 << 31;
 
+/// What is wrong with a PDO: the place in its mapping, counted from 0, if it is an object there; and why, in words.
+type Wrong = (Option<usize>, String);
+
 /// Appends the writes of a PDO; `next` is the next CAN-ID for PDOs without a pre-defined one.
 ///
 /// # Errors
-/// An object is missing or a value is invalid; in words.
+/// An object is missing or a value is invalid.
 pub(super) fn configure(
     node: &mut Node,
     index: u16,
     wanted: &PdoConfiguration,
     next: &mut u32,
-) -> Result<(), String> {
+) -> Result<(), Wrong> {
     let is_tpdo = index >= 0x1800;
     let count = node.number(index, 0);
     let given = |sub: u8| {
@@ -40,13 +43,13 @@ pub(super) fn configure(
     let cob_id = match wanted.cob_id {
         None => before,
         Some(Some(cob_id)) => cob_id,
-        Some(None) => automatic(node, index, next)?,
+        Some(None) => automatic(node, index, next).map_err(of_pdo)?,
     };
     let mut writes = Vec::new();
     let mut partners = None;
     let mut write = |index: u16, sub: u8, number: u32| {
-        writes.push(node.write(index, sub, number.into())?);
-        Ok::<(), String>(())
+        writes.push(node.write(index, sub, number.into()).map_err(of_pdo)?);
+        Ok::<(), Wrong>(())
     };
     if before != cob_id | INVALID {
         write(index, 1, cob_id | INVALID)?;
@@ -90,7 +93,7 @@ pub(super) fn configure(
             map(node, index + 0x200, mapping, &mut writes)?;
         }
         if wanted.enabled {
-            writes.push(node.write(index, 1, cob_id.into())?);
+            writes.push(node.write(index, 1, cob_id.into()).map_err(of_pdo)?);
         }
     }
     node.writes.extend(writes);
@@ -113,28 +116,35 @@ fn automatic(node: &Node, index: u16, next: &mut u32) -> Result<u32, String> {
     Ok(*next - 1)
 }
 
-fn map(
-    node: &Node,
-    index: u16,
-    mapping: &[Address],
-    writes: &mut Vec<Write>,
-) -> Result<(), String> {
+fn map(node: &Node, index: u16, mapping: &[Address], writes: &mut Vec<Write>) -> Result<(), Wrong> {
     if node.number(index, 0) > 0 || !mapping.is_empty() {
-        writes.push(node.write(index, 0, 0)?);
+        writes.push(node.write(index, 0, 0).map_err(of_pdo)?);
     }
-    for (sub, address) in (1_u8..).zip(mapping) {
-        let entry = node.description.entry(*address);
-        let entry =
-            entry.ok_or_else(|| format!("{}: object {address} does not exist", node.name))?;
-        let bits = entry.data_type.and_then(|data_type| data_type.bits());
-        let bits = bits.ok_or_else(|| format!("{}: {address} cannot be mapped", node.name))?;
-        let number = u32::from(address.index) << 16 | u32::from(address.sub) << 8 | u32::from(bits);
-        writes.push(node.write(index, sub, number.into())?);
+    for (at, address) in mapping.iter().enumerate() {
+        writes.push(entry(node, index, at, *address).map_err(|why| (Some(at), why))?);
     }
     if !mapping.is_empty() {
-        writes.push(node.write(index, 0, mapping.len() as i128)?);
+        let count = node.write(index, 0, mapping.len() as i128);
+        writes.push(count.map_err(of_pdo)?);
     }
     Ok(())
+}
+
+/// The write of a mapping entry, counted from 0.
+fn entry(node: &Node, index: u16, at: usize, address: Address) -> Result<Write, String> {
+    let name = &node.name;
+    let entry = node.description.entry(address);
+    let entry = entry.ok_or_else(|| format!("{name}: object {address} does not exist"))?;
+    let bits = entry.data_type.and_then(|data_type| data_type.bits());
+    let bits = bits.ok_or_else(|| format!("{name}: {address} cannot be mapped"))?;
+    let number = u32::from(address.index) << 16 | u32::from(address.sub) << 8 | u32::from(bits);
+    let sub = u8::try_from(at + 1).map_err(|_| format!("{name}: a PDO has at most 64 objects"))?;
+    node.write(index, sub, number.into())
+}
+
+/// What is wrong with a PDO, but not with an object of its mapping.
+const fn of_pdo(why: String) -> Wrong {
+    (None, why)
 }
 
 /// Settings of one PDO in a project; `None` leaves the value of the device.

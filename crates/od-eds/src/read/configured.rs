@@ -1,50 +1,76 @@
-//! Keys and sections of a DCF that are in an EDS, and the one that a DCF lacks.
+//! Keys and sections of a configured device in the file of a type of device, and the one that a configured device lacks.
 
 use crate::log::Log;
 use crate::rules::lists::reader::{w0217_dcf_key, w0217_dcf_section};
+use crate::rules::lists::w0216_mandatory_key_missing::w0216_last_eds_missing;
 use crate::rules::standard::reader::w0658_commissioning_missing;
 use crate::scan::names::{Compact, Place, place};
 use crate::scan::section::TextSection;
 
-/// Keys of objects that only a DCF has.
-const KEYS: [&str; 5] = [
-    "ParameterValue",
-    "Denotation",
-    "UploadFile",
-    "DownloadFile",
-    "ParamRefd",
-];
+/// The two kinds of files of one standard, by the ends of their names, and the keys of objects that only the second has.
+pub(crate) struct Kinds {
+    of_type: &'static str,
+    of_device: &'static str,
+    /// Each as odkit names it, and as the file does.
+    keys: &'static [(&'static str, &'static str)],
+}
 
-/// Sections that only a DCF has.
+/// EDS and DCF (CiA 306-1).
+pub(crate) const EDS: Kinds = Kinds {
+    of_type: ".eds",
+    of_device: ".dcf",
+    keys: &[
+        ("ParameterValue", "ParameterValue"),
+        ("Denotation", "Denotation"),
+        ("UploadFile", "UploadFile"),
+        ("DownloadFile", "DownloadFile"),
+        ("ParamRefd", "ParamRefd"),
+    ],
+};
+
+/// XDD and XDC (CiA 311).
+#[cfg(feature = "xdd")]
+pub(crate) const XDD: Kinds = Kinds {
+    of_type: ".xdd",
+    of_device: ".xdc",
+    keys: &[("ParameterValue", "actualValue")],
+};
+
+/// Sections that only the file of a configured device has.
 const SECTIONS: [&str; 3] = [
     "DeviceComissioning",
     "DeviceCommissioning",
     "ConnectedModules",
 ];
 
-/// Reports keys and sections of a DCF if the file is an EDS, and the missing commissioning if it is a DCF: by its
-/// name on the disk, otherwise by FileName.
-pub(crate) fn check(sections: &[TextSection<'_>], file: Option<&str>, log: &mut Log) {
-    let info = |section: &&TextSection<'_>| section.name.eq_ignore_ascii_case("FileInfo");
-    let name = sections
-        .iter()
-        .find(info)
-        .and_then(|info| info.get("FileName"));
+/// Reports what only a configured device has if the file is that of a type, and the missing commissioning if it is
+/// that of a device: by its name on the disk, otherwise by FileName.
+pub(crate) fn check(
+    sections: &[TextSection<'_>],
+    file: Option<&str>,
+    kinds: &'static Kinds,
+    log: &mut Log,
+) {
+    let find = |name: &str| {
+        let mut all = sections.iter();
+        all.find(|section| section.name.eq_ignore_ascii_case(name))
+    };
+    let info = find("FileInfo");
+    let name = info.and_then(|info| info.get("FileName"));
     let name = file.or(name.map(|name| &*name.value)).unwrap_or_default();
     let ends = name.len().checked_sub(4).and_then(|at| name.get(at..));
     let is = |kind: &str| ends.is_some_and(|ends| ends.eq_ignore_ascii_case(kind));
-    if is(".dcf") {
-        let names = ["DeviceComissioning", "DeviceCommissioning"];
-        let is_one = |section: &TextSection<'_>| {
-            names
-                .iter()
-                .any(|name| section.name.eq_ignore_ascii_case(name))
-        };
-        if !sections.iter().any(is_one) {
-            log.push(w0658_commissioning_missing());
+    let is_xml = kinds.of_type == ".xdd";
+    if is(kinds.of_device) {
+        if SECTIONS[..2].iter().all(|name| find(name).is_none()) {
+            log.push(w0658_commissioning_missing(is_xml));
+        }
+        // An XDC has no place for the name of its XDD.
+        if !is_xml && let Some(info) = info.filter(|info| info.get("LastEDS").is_none()) {
+            log.push(w0216_last_eds_missing(info.header));
         }
     }
-    if !is(".eds") {
+    if !is(kinds.of_type) {
         return;
     }
     for section in sections {
@@ -54,14 +80,16 @@ pub(crate) fn check(sections: &[TextSection<'_>], file: Option<&str>, log: &mut 
             let last =
                 keys.find(|(key, value)| key.eq_ignore_ascii_case("LastEDS") && !value.is_empty());
             last.iter()
-                .for_each(|(key, _)| log.push(w0217_dcf_key(key)));
+                .for_each(|(key, _)| log.push(w0217_dcf_key(key.span, key, false)));
         }
         match place(name) {
             Place::Object(_) | Place::Member(..) => {
-                let own = |key: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(key));
-                let keys = section.pairs.iter();
-                for (key, _) in keys.filter(|(key, value)| own(key) && !value.is_empty()) {
-                    log.push(w0217_dcf_key(key));
+                for (key, _) in section.pairs.iter().filter(|(_, value)| !value.is_empty()) {
+                    let mut known = kinds.keys.iter();
+                    let own = known.find(|(known, _)| known.eq_ignore_ascii_case(key));
+                    if let Some((_, named)) = own {
+                        log.push(w0217_dcf_key(key.span, named, is_xml));
+                    }
                 }
             }
             Place::Compact(_, Compact::Value | Compact::Denotation) => {
@@ -72,7 +100,11 @@ pub(crate) fn check(sections: &[TextSection<'_>], file: Option<&str>, log: &mut 
                     .iter()
                     .any(|known| name.eq_ignore_ascii_case(known)) =>
             {
-                log.push(w0217_dcf_section(section.header, name));
+                log.push(if is_xml {
+                    w0217_dcf_key(section.header, "deviceCommissioning", true)
+                } else {
+                    w0217_dcf_section(section.header, name)
+                });
             }
             _ => {}
         }

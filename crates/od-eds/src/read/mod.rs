@@ -2,7 +2,7 @@
 
 mod compact;
 mod compact_pdo;
-mod configured;
+pub(crate) mod configured;
 mod entry;
 pub(crate) mod fields;
 mod lists;

@@ -13,6 +13,7 @@ use crate::rules::standard::reader::{
     i0610_date_or_time, i0611_commissioning_spelling, w0609_key_value_not_valid,
 };
 use crate::rules::structure::reader::{i0319_unknown_key, w0318_key_misspelled};
+use crate::rules::structure::w0344_name_too_long::text_too_long;
 use crate::scan::forms;
 use crate::scan::forms::{Form, OBJECT_KEYS, SectionForm};
 use crate::scan::names::List;
@@ -52,6 +53,18 @@ pub(crate) fn check(placed: &TextSection<'_>, log: &mut Log) {
                 value,
                 known.keys.iter().map(|(key, _)| *key),
             )),
+        }
+    }
+}
+
+/// Reports texts of a section that are too long for a line of a file. A line of XML has no limit.
+pub(crate) fn lengths(placed: &TextSection<'_>, log: &mut Log) {
+    let Some((_, known)) = forms::section(&placed.name) else {
+        return;
+    };
+    for (key, value) in &placed.pairs {
+        if let Some((_, Form::Text)) = forms::key(known, key) {
+            log.extend(text_too_long(key, value));
         }
     }
 }
@@ -129,7 +142,7 @@ fn fits(value: &str, form: Form) -> bool {
         Form::Flag => matches!(read, Some(0 | 1)),
         Form::Number(most) => read.is_some_and(|n| (0..=i128::from(most)).contains(&n)),
         Form::Version => is_version(text),
-        Form::Date => is_date(value),
+        Form::Date => forms::day(value).is_some(),
         Form::Time => is_time(value),
     }
 }
@@ -137,33 +150,6 @@ fn fits(value: &str, form: Form) -> bool {
 /// A version of CiA 306 for CANopen 4.
 fn is_version(text: &str) -> bool {
     matches!(text, "4.0" | "4.1" | "4.2")
-}
-
-fn parts(text: &str, at: char) -> Vec<Option<u32>> {
-    text.split(at).map(|part| part.parse().ok()).collect()
-}
-
-fn is_date(text: &str) -> bool {
-    match parts(text, '-')[..] {
-        [
-            Some(month @ 1..=12),
-            Some(day @ 1..),
-            Some(year @ 1000..=9999),
-        ] => {
-            let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-            day <= days(month) && (is_leap || (month, day) != (2, 29))
-        }
-        _ => false,
-    }
-}
-
-/// Days of a month in a leap year.
-const fn days(month: u32) -> u32 {
-    match month {
-        2 => 29,
-        4 | 6 | 9 | 11 => 30,
-        _ => 31,
-    }
 }
 
 fn is_time(text: &str) -> bool {
@@ -176,7 +162,7 @@ fn is_time(text: &str) -> bool {
     };
     let half = half.eq_ignore_ascii_case("AM") || half.eq_ignore_ascii_case("PM");
     half && matches!(
-        parts(time.trim_end(), ':')[..],
+        forms::parts(time.trim_end(), ':')[..],
         [Some(0..=12), Some(0..=59)]
     )
 }

@@ -37,7 +37,10 @@ pub(crate) fn eds(
 ) -> Description {
     let sections = lines::scan(text, &mut |fault| report(fault, log));
     see(&sections);
-    configured::check(&sections, file, log);
+    configured::check(&sections, file, &configured::EDS, log);
+    for section in &sections {
+        other::lengths(section, log);
+    }
     let mut sorted = Sorted::of(sections, log);
     sorted.has_lists = true;
     sorted.described()

@@ -1,8 +1,12 @@
 //! 12: nodes of a network that do not fit together: rules that `network::check` and the readers of networks report.
 
 use crate::finding::{Finding, Form, Rule, Severity::Error};
+use crate::network::node::Node;
 use crate::scan::forms::near;
 use crate::scan::section::Text;
+use crate::span::Span;
+use crate::subject::shown;
+use od_model::Address;
 
 table! {
     E1201 (example)
@@ -13,6 +17,7 @@ table! {
     W1206 (example)
     W1207 (example)
     W1208 (example)
+    E1209 (example)
 }
 
 pub(crate) static E1201: Rule = Rule {
@@ -191,10 +196,52 @@ pub(crate) static W1208: Rule = Rule {
     ..Rule::of("W1208")
 };
 
-/// Returns the finding about a key of a node, if it looks like one that dcfgen knows.
-pub fn misspelled_key(node: &str, given: &str, known: &[&str]) -> Option<Finding> {
+/// Returns the finding about a key of a node at `span`, if it looks like one that dcfgen knows.
+pub fn misspelled_key(node: &str, given: &str, known: &[&str], span: Span) -> Option<Finding> {
     let is_known = known.contains(&given);
     let right = near(given, known.iter().copied()).filter(|_| !is_known)?;
-    let finding = W1208.finding().fact("node", node).fact("given", given);
+    let finding = W1208.at(span).fact("node", node).fact("given", given);
     Some(finding.fact("right", right))
+}
+
+pub(crate) static E1209: Rule = Rule {
+    title: "PDO of a project maps an object that is not mappable",
+    why: "The node aborts the download of the mapping entry, and the master does not boot it. dcfgen writes the entry all the same, and so does odkit.",
+    source: "CiA 301, PDO mapping parameter; CiA 306-1, PDOMapping and AccessType",
+    example: "mapping: [{index: 0x1017}]",
+    says: "{node}: {object} \"{name}\" is not mappable",
+    help: "map another object",
+    also: &[DIRECTION],
+    ..Rule::of("E1209")
+};
+
+/// Sentence for an object of the other direction.
+const DIRECTION: Form = Form {
+    says: "{node}: {object} \"{name}\" is `{access}` and cannot be mapped into {pdo}",
+    ..Form::OWN
+};
+
+/// Returns the finding about an object of a node in the mapping of a PDO at `span`, if the device cannot map it.
+pub fn not_mappable(node: &Node, is_rpdo: bool, address: Address, span: Span) -> Option<Finding> {
+    let object = node.description.objects.get(&address.index)?;
+    let entry = object.entries.get(&address.sub)?;
+    let access = *entry.access;
+    let fits = if is_rpdo {
+        access.maps_to_rpdo()
+    } else {
+        access.maps_to_tpdo()
+    };
+    let finding = E1209.at(span).about(address);
+    let finding = finding.fact("node", node.name.as_str());
+    let finding = finding.fact("object", shown(object, address));
+    let finding = finding.fact("name", entry.name.as_str());
+    match (*entry.mappable, fits) {
+        (true, true) => None,
+        (false, _) => Some(finding),
+        (true, false) => {
+            let pdo = if is_rpdo { "an RPDO" } else { "a TPDO" };
+            let finding = finding.form(&DIRECTION).fact("access", access);
+            Some(finding.fact("pdo", pdo))
+        }
+    }
 }

@@ -32,6 +32,7 @@ table! {
     E0118
     E0119 (example)
     W0120 (xdd)
+    E0121 (xdd)
 }
 
 pub(crate) static W0101: Rule = Rule {
@@ -398,4 +399,22 @@ pub(crate) static W0120: Rule = Rule {
 #[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn w0120_object_type_missing(at: Span) -> Finding {
     W0120.at(at)
+}
+
+pub(crate) static E0121: Rule = Rule {
+    buildable: true,
+    title: "word of an XDD in other capitals than in the schema",
+    why: "XML distinguishes capital and small letters: a tool that checks a file by the schema rejects the file. odkit reads the word of the schema.",
+    source: "CiA 311, accessType, access and PDOmapping",
+    fixability: Fixability::Safe,
+    says: "`{given}` is not a word of the schema",
+    help: "write `{right}`{fix}",
+    ..Rule::of("E0121")
+};
+
+/// The finding about an attribute whose value is this word of the schema in other capitals.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0121_capitals(given: &Spanned<String>, right: &str) -> Finding {
+    let fix = Fix::safe().replace(given.span, right);
+    E0121.given(given).fact("right", right).fix(fix)
 }

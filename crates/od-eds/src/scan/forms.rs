@@ -242,6 +242,26 @@ pub(crate) fn module_part(name: &str) -> Option<ModulePart> {
     }
 }
 
+/// The numbers of a text between these characters; `None` for a part that is not a number.
+pub(crate) fn parts(text: &str, at: char) -> Vec<Option<u32>> {
+    text.split(at).map(|part| part.parse().ok()).collect()
+}
+
+/// Year, month and day of `07-14-2026`; `None` if there is no such day.
+pub(crate) fn day(text: &str) -> Option<(u32, u32, u32)> {
+    let [Some(month), Some(day), Some(year @ 1000..=9999)] = parts(text, '-')[..] else {
+        return None;
+    };
+    let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        2 => 28 + u32::from(is_leap),
+        4 | 6 | 9 | 11 => 30,
+        1..=12 => 31,
+        _ => 0,
+    };
+    (1..=days).contains(&day).then_some((year, month, day))
+}
+
 /// Converts `2026-07-14` to `07-14-2026`; other texts stay.
 pub(crate) fn date(given: &str) -> String {
     let mut parts = given.splitn(3, '-');

@@ -24,7 +24,8 @@ const PARAMETERS: &[Row] = &[
     named(0x6111, 0x6111, "AI autocalibration"),
     array(0x6112, 0x6112, &[Unsigned8], "AI operating mode"),
     named(0x6113, 0x6113, "AI ADC sample rate"),
-    array(0x6114, 0x6114, &[Unsigned32], "AI ADC sample rate"),
+    // Devices have 16 and 32 bits.
+    named(0x6114, 0x6114, "AI ADC sample rate").with(&[(1, 0xFE, Unsigned32)]),
     array(0x6125, 0x6125, &[Unsigned32], "AI autozero"),
     array(0x6126, 0x6126, &[Real32], "AI scaling factor"),
     array(0x6127, 0x6127, &[Real32], "AI scaling offset"),

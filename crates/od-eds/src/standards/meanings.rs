@@ -26,11 +26,13 @@ enum What {
     Bits(&'static [(u8, &'static str)]),
     /// A mask of bits, their pattern, and its meaning; the first match counts.
     Patterns(&'static [(i64, i64, &'static str)]),
+    /// What a bit of a mask says about the channel with its number.
+    Channels(&'static str),
     /// A unit of CiA 303-2.
     Unit,
 }
 
-use What::{Bits, Patterns, Unit, Values};
+use What::{Bits, Channels, Patterns, Unit, Values};
 
 const fn row(profile: u16, first: u16, last: u16, subs: (u8, u8), what: What) -> Row {
     Row {
@@ -73,6 +75,27 @@ const OPERATING: &[(u8, &str)] = &[
     (3, "measuring direction reversed"),
 ];
 
+/// Formats of a stored file (1022h, 1F21h, 1F24h).
+const FORMATS: &[(i64, i64, &str)] = &[
+    (0, 0, "ASCII, not compressed"),
+    (128, 255, "format of the manufacturer"),
+];
+
+/// States of a command (1023h:02, 1025h:02).
+const COMMANDS: &[(i64, i64, &str)] = &[
+    (0, 0, "done without an error or a reply"),
+    (1, 1, "done without an error, with a reply"),
+    (2, 2, "done with an error, without a reply"),
+    (3, 3, "done with an error and a reply"),
+    (255, 255, "is executed"),
+];
+
+const INVERTED: &[(i64, i64, &str)] = &[(0, 0, "not inverted"), (1, 1, "inverted")];
+const INTERRUPTS: &[(i64, i64, &str)] =
+    &[(0, 0, "interrupt disabled"), (1, 1, "interrupt enabled")];
+const TAKES: &str = "takes the error value";
+const SET: &str = "set by a write";
+
 /// The meanings, by profile.
 #[rustfmt::skip]
 const TABLE: &[Row] = &[
@@ -80,6 +103,14 @@ const TABLE: &[Row] = &[
         (0, "generic error"), (1, "current"), (2, "voltage"), (3, "temperature"), (4, "communication error"),
         (5, "device profile specific"), (7, "manufacturer-specific"),
     ])),
+    row(0, 0x1022, 0x1022, VAR, Values(FORMATS)),
+    row(0, 0x1023, 0x1023, (2, 2), Values(COMMANDS)),
+    row(0, 0x1024, 0x1024, VAR, Values(&[
+        (0, 0, "execute the next command at once"), (1, 1, "buffer the next command"),
+        (2, 2, "execute the buffered commands"), (3, 3, "abort the command and the buffered ones"),
+        (4, 255, "mode of the manufacturer"),
+    ])),
+    row(0, 0x1025, 0x1025, (2, 2), Values(COMMANDS)),
     row(0, 0x1029, 0x1029, ALL, Values(&[
         (0, 0, "Pre-operational, if the node is Operational"), (1, 1, "no change of the NMT state"), (2, 2, "Stopped"),
     ])),
@@ -96,11 +127,47 @@ const TABLE: &[Row] = &[
     row(0, 0x1F51, 0x1F51, ALL, Values(&[
         (0, 0, "stop the program"), (1, 1, "start the program"), (2, 2, "reset the program"), (3, 3, "clear the program"),
     ])),
+    row(0, 0x1F21, 0x1F21, ALL, Values(FORMATS)),
+    row(0, 0x1F24, 0x1F24, ALL, Values(FORMATS)),
+    row(0, 0x1F82, 0x1F82, ALL, Values(&[
+        (0, 0, "NMT state unknown"), (1, 1, "the node is missing"), (4, 4, "Stopped"), (5, 5, "Operational"),
+        (6, 6, "reset node"), (7, 7, "reset communication"), (127, 127, "Pre-operational"),
+    ])),
+    row(0, 0x1F83, 0x1F83, ALL, Values(&[(0, 0, "the node is not guarded"), (1, 1, "the node is guarded")])),
+    row(401, 0x6002, 0x6002, ALL, Channels("inverted")),
+    row(401, 0x6003, 0x6003, ALL, Channels("filter enabled")),
     row(401, 0x6005, 0x6005, VAR, Values(&[(0, 0, "interrupts disabled"), (1, 1, "interrupts enabled")])),
+    row(401, 0x6006, 0x6008, ALL, Channels("interrupt enabled")),
+    row(401, 0x6030, 0x6037, ALL, Values(INVERTED)),
+    row(401, 0x6038, 0x603F, ALL, Values(&[(0, 0, "filter disabled"), (1, 1, "filter enabled")])),
+    row(401, 0x6050, 0x6057, ALL, Values(INTERRUPTS)),
+    row(401, 0x6060, 0x6067, ALL, Values(INTERRUPTS)),
+    row(401, 0x6070, 0x6077, ALL, Values(INTERRUPTS)),
+    row(401, 0x6102, 0x6102, ALL, Channels("inverted")),
+    row(401, 0x6103, 0x6103, ALL, Channels("filter enabled")),
+    row(401, 0x6106, 0x6108, ALL, Channels("interrupt enabled")),
+    row(401, 0x6122, 0x6122, ALL, Channels("inverted")),
+    row(401, 0x6123, 0x6123, ALL, Channels("filter enabled")),
+    row(401, 0x6126, 0x6128, ALL, Channels("interrupt enabled")),
+    row(401, 0x6202, 0x6202, ALL, Channels("inverted")),
+    row(401, 0x6206, 0x6206, ALL, Channels(TAKES)),
+    row(401, 0x6208, 0x6208, ALL, Channels(SET)),
+    row(401, 0x6240, 0x6247, ALL, Values(INVERTED)),
+    row(401, 0x6250, 0x6257, ALL, Values(&[
+        (0, 0, "the output keeps its value after an error"), (1, 1, "the output takes the error value"),
+    ])),
+    row(401, 0x6270, 0x6277, ALL, Values(&[(0, 0, "the output is not set"), (1, 1, "the output is set")])),
+    row(401, 0x6302, 0x6302, ALL, Channels("inverted")),
+    row(401, 0x6306, 0x6306, ALL, Channels(TAKES)),
+    row(401, 0x6308, 0x6308, ALL, Channels(SET)),
+    row(401, 0x6322, 0x6322, ALL, Channels("inverted")),
+    row(401, 0x6326, 0x6326, ALL, Channels(TAKES)),
+    row(401, 0x6328, 0x6328, ALL, Channels(SET)),
     row(401, 0x6421, 0x6421, ALL, Bits(&[
         (0, "above the upper limit"), (1, "below the lower limit"), (2, "changed by more than the delta"),
         (3, "reduced by more than the negative delta"), (4, "increased by more than the positive delta"),
     ])),
+    row(401, 0x6422, 0x6422, ALL, Channels("caused an interrupt")),
     row(401, 0x6423, 0x6423, VAR, Values(&[(0, 0, "interrupts disabled"), (1, 1, "interrupts enabled")])),
     row(401, 0x6443, 0x6443, ALL, Values(&[
         (0, 0, "the output keeps its value after an error"), (1, 1, "the output takes the error value (6444h, 6445h)"),
@@ -137,10 +204,16 @@ const TABLE: &[Row] = &[
         (1, 1, "slow down ramp"), (2, 2, "quick stop ramp"), (3, 3, "current limit"), (4, 4, "voltage limit"),
     ])),
     row(402, 0x6060, 0x6061, VAR, Values(MODES)),
+    row(402, 0x606A, 0x606A, VAR, Values(&[
+        (0, 0, "velocity from the position sensor"), (1, 1, "velocity from the velocity sensor"),
+    ])),
     row(402, 0x607E, 0x607E, VAR, Bits(&[(6, "velocity inverted"), (7, "position inverted")])),
     row(402, 0x6086, 0x6086, VAR, Values(&[
         (-32768, -1, "profile of the manufacturer"), (0, 0, "linear ramp (trapezoidal)"), (1, 1, "sin² ramp"),
         (2, 2, "jerk-free ramp"), (3, 3, "jerk-limited ramp"),
+    ])),
+    row(402, 0x6088, 0x6088, VAR, Values(&[
+        (-32768, -1, "profile of the manufacturer"), (0, 0, "linear ramp (trapezoidal)"), (1, 1, "sin² ramp"),
     ])),
     row(402, 0x6098, 0x6098, VAR, Values(&[
         (-128, -1, "method of the manufacturer"), (0, 0, "no homing"), (1, 1, "negative limit switch and index pulse"),
@@ -151,14 +224,47 @@ const TABLE: &[Row] = &[
         (34, 34, "index pulse in positive direction"), (35, 35, "current position"), (37, 37, "current position"),
     ])),
     row(402, 0x60A8, 0x60AB, VAR, Unit),
+    row(402, 0x60B8, 0x60B8, VAR, Bits(&[
+        (0, "touch probe 1 enabled"), (1, "touch probe 1 continuous"), (4, "touch probe 1 at the positive edge"),
+        (5, "touch probe 1 at the negative edge"), (8, "touch probe 2 enabled"), (9, "touch probe 2 continuous"),
+        (12, "touch probe 2 at the positive edge"), (13, "touch probe 2 at the negative edge"),
+    ])),
+    row(402, 0x60B9, 0x60B9, VAR, Bits(&[
+        (0, "touch probe 1 enabled"), (1, "touch probe 1 has a positive edge"), (2, "touch probe 1 has a negative edge"),
+        (8, "touch probe 2 enabled"), (9, "touch probe 2 has a positive edge"), (10, "touch probe 2 has a negative edge"),
+    ])),
+    row(402, 0x60C0, 0x60C0, VAR, Values(&[
+        (-32768, -1, "interpolation of the manufacturer"), (0, 0, "linear interpolation"),
+    ])),
+    row(402, 0x60C4, 0x60C4, (3, 3), Values(&[(0, 0, "FIFO buffer"), (1, 1, "ring buffer")])),
+    row(402, 0x60C4, 0x60C4, (6, 6), Values(&[(0, 0, "clear the buffer, no access"), (1, 1, "access to the buffer")])),
+    row(402, 0x60FD, 0x60FD, VAR, Bits(&[
+        (0, "negative limit switch"), (1, "positive limit switch"), (2, "home switch"), (3, "interlock"),
+    ])),
+    row(402, 0x60FE, 0x60FE, ALL, Bits(&[(0, "brake")])),
+    row(402, 0x6402, 0x6402, VAR, Values(&[
+        (0, 0, "other motor"), (1, 1, "phase-modulated DC motor"), (2, 2, "frequency-controlled DC motor"),
+        (3, 3, "permanent-magnet synchronous motor"), (4, 4, "frequency-controlled synchronous motor"),
+        (5, 5, "switched reluctance motor"), (6, 6, "wound-rotor induction motor"),
+        (7, 7, "squirrel-cage induction motor"), (8, 8, "stepper motor"), (9, 9, "microstep stepper motor"),
+        (10, 10, "sinusoidal brushless motor"), (11, 11, "trapezoidal brushless motor"),
+    ])),
     row(402, 0x6502, 0x6502, VAR, Bits(&[
         (0, "profile position"), (1, "velocity"), (2, "profile velocity"), (3, "profile torque"), (5, "homing"),
         (6, "interpolated position"), (7, "cyclic synchronous position"), (8, "cyclic synchronous velocity"),
         (9, "cyclic synchronous torque"), (10, "cyclic synchronous torque with commutation angle"),
     ])),
     row(404, 0x6131, 0x6131, ALL, Unit),
+    row(404, 0x6150, 0x6150, ALL, Bits(&[(0, "not valid"), (1, "positive overload"), (2, "negative overload")])),
+    row(404, 0x61A0, 0x61A0, ALL, Values(&[
+        (0, 0, "no filter"), (1, 1, "moving average"), (2, 2, "repeating average"),
+    ])),
     row(404, 0x6301, 0x6301, ALL, Unit),
     row(406, 0x6000, 0x6000, VAR, Bits(OPERATING)),
+    row(406, 0x6300, 0x6300, ALL, Channels("cam active")),
+    row(406, 0x6301, 0x6301, ALL, Channels("cam enabled")),
+    row(406, 0x6302, 0x6302, ALL, Channels("cam inverted")),
+    row(406, 0x6400, 0x6400, ALL, Bits(&[(0, "outside the work area"), (1, "above the work area"), (2, "below the work area")])),
     row(406, 0x6500, 0x6500, VAR, Bits(OPERATING)),
     row(406, 0x6503, 0x6504, VAR, Bits(&[(0, "position error"), (1, "commissioning diagnostics")])),
     row(406, 0x6505, 0x6506, VAR, Bits(&[
@@ -196,6 +302,12 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
             let mut patterns = patterns.iter();
             let found = patterns.find(|(mask, pattern, _)| number & mask == *pattern)?;
             Some(found.2.to_string())
+        }
+        Channels(what) => {
+            let set = (0..32).filter(|bit| number >> bit & 1 != 0);
+            let set: Vec<String> = set.map(|bit| bit.to_string()).collect();
+            let bits = if set.len() == 1 { "bit" } else { "bits" };
+            (!set.is_empty()).then(|| format!("{what}: {bits} {}", set.join(", ")))
         }
         Unit => unit(u32::try_from(number).ok()?),
     }
@@ -315,6 +427,34 @@ mod tests {
                 Some("code sequence counter-clockwise, scaling enabled"),
             ),
             (406, 0x6060, 0, 1, None),
+            (401, 0x6002, 1, 0x05, Some("inverted: bits 0, 2")),
+            (401, 0x6206, 1, 0x80, Some("takes the error value: bit 7")),
+            (401, 0x6206, 1, 0, None),
+            (401, 0x6A50, 1, 1, Some("the output takes the error value")),
+            (
+                402,
+                0x60FD,
+                0,
+                0x5,
+                Some("negative limit switch, home switch"),
+            ),
+            (
+                402,
+                0x6402,
+                0,
+                3,
+                Some("permanent-magnet synchronous motor"),
+            ),
+            (404, 0x6150, 1, 0x3, Some("not valid, positive overload")),
+            (
+                406,
+                0x6400,
+                1,
+                0x3,
+                Some("outside the work area, above the work area"),
+            ),
+            (402, 0x1F82, 5, 127, Some("Pre-operational")),
+            (402, 0x1023, 2, 255, Some("is executed")),
             (
                 402,
                 0x1001,

@@ -5,6 +5,7 @@ use alloc::string::String;
 
 use crate::fix::{Action, Edit, Fix};
 use crate::scan::number::number;
+use crate::xdd::objects::{ACCESS_TYPES, ACCESSES, MAPPINGS};
 
 /// Returns the fix in the form of CiA 311; `None` if one of its edits changes more than the value
 /// of an attribute.
@@ -46,9 +47,14 @@ fn value(edit: &Edit, text: &str) -> Option<String> {
             decimal()
         }
         "mandatoryObjects" | "optionalObjects" | "manufacturerObjects" => decimal(),
-        "accessType" => ["ro", "wo", "rw", "const"]
-            .contains(&given)
-            .then(|| given.into()),
+        "accessType" | "access" | "PDOmapping" => {
+            let words = match &name[start..] {
+                "accessType" => ACCESS_TYPES,
+                "access" => ACCESSES,
+                _ => MAPPINGS,
+            };
+            words.contains(&given).then(|| given.into())
+        }
         "defaultValue" | "actualValue" | "lowLimit" | "highLimit" | "value" => {
             let is_plain = !given.contains(['<', '>', '&', '"', '\'']);
             is_plain.then(|| given.into())
@@ -78,6 +84,10 @@ mod tests {
             (
                 "objectType=\"7\" dataType=\"0007\" accessType=\"readWrite\" defaultValue=\"1\"",
                 "objectType=\"7\" dataType=\"0007\" accessType=\"rw\" defaultValue=\"1\"",
+            ),
+            (
+                "objectType=\"7\" dataType=\"0007\" accessType=\"RW\" PDOmapping=\"tpdo\"",
+                "objectType=\"7\" dataType=\"0007\" accessType=\"rw\" PDOmapping=\"TPDO\"",
             ),
             (
                 "objectType=\"7\" dataType=\"0007\" accessType=\"rw\" defaultValue=\"$NODE+0x10\"",

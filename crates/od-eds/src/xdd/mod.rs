@@ -23,19 +23,20 @@ use roxmltree::Document;
 
 use crate::description::Description;
 use crate::log::Log;
-use crate::read::sorted;
+use crate::read::{configured, sorted};
 use crate::rules::text::{e0113_xml_not_well_formed, e0119_too_large};
 use crate::scan::section::TextSection;
 use crate::xdd::source::{Places, Reader};
 
 pub use write::write;
 
-/// Reads an XDD or an XDC; `see` receives its content as sections of an EDS.
+/// Reads an XDD or an XDC; `file` is its name on the disk, if it has one, and `see` receives its content as sections of an EDS.
 ///
 /// Never fails and never panics. A text that is not well-formed XML gives an empty description and
 /// a finding at the error.
 pub(crate) fn parse(
     text: &str,
+    file: Option<&str>,
     see: &mut dyn FnMut(&[TextSection<'_>]),
     log: &mut Log,
 ) -> Description {
@@ -60,6 +61,7 @@ pub(crate) fn parse(
     sections.append(&mut objects::sections(root, &mut reader));
     log.append(reader.log);
     see(&sections);
+    configured::check(&sections, file, &configured::XDD, log);
     sorted::objects(sections, log)
 }
 

@@ -8,7 +8,8 @@ use roxmltree::Node;
 
 use crate::rules::lists::reader::w0204_in_xdd;
 use crate::rules::text::{
-    e0114_xdd_index_not_valid, e0115_xdd_parameter_missing, w0120_object_type_missing,
+    e0114_xdd_index_not_valid, e0115_xdd_parameter_missing, e0121_capitals,
+    w0120_object_type_missing,
 };
 use crate::rules::values::reader::{e0429_access_of_parameter, w0406_in_xdd};
 use crate::scan::section::TextSection;
@@ -239,6 +240,31 @@ fn data_type(
     Some(Spanned::new(format!("0x{:04X}", data_type.code()), header))
 }
 
+/// The words of the schema for accessType of an object, access of a parameter, and PDOmapping.
+pub(super) const ACCESS_TYPES: &[&str] = &["const", "ro", "wo", "rw", "rwr", "rww"];
+pub(super) const ACCESSES: &[&str] = &[
+    "const",
+    "read",
+    "write",
+    "readWrite",
+    "readWriteInput",
+    "readWriteOutput",
+    "noAccess",
+];
+pub(super) const MAPPINGS: &[&str] = &["no", "default", "optional", "TPDO", "RPDO"];
+
+/// Reports a word of the schema in other capitals, and returns it as the schema has it.
+fn word(given: Spanned<String>, words: &[&str], reader: &mut Reader<'_>) -> Spanned<String> {
+    let mut words = words.iter();
+    match words.find(|word| word.eq_ignore_ascii_case(&given)) {
+        Some(word) if **word != *given.value => {
+            reader.log.push(e0121_capitals(&given, word));
+            Spanned::new((*word).into(), given.span)
+        }
+        _ => given,
+    }
+}
+
 /// AccessType and PDOMapping; `None` if neither the object nor a parameter gives them. An object that is mapped in one direction only, and that a master can
 /// write, is `rwr` or `rww`.
 fn access(
@@ -248,9 +274,11 @@ fn access(
     header: Span,
 ) -> (Option<Spanned<String>>, Option<Spanned<String>>) {
     let mapping = reader.attribute(node, "PDOmapping");
+    let mapping = mapping.map(|given| word(given, MAPPINGS, reader));
     let direction = mapping.as_ref().map_or("", |mapping| mapping.as_str());
     // CiA 311 has different words for accessType of an object and for access of a parameter.
     let own = reader.attribute(node, "accessType");
+    let own = own.map(|given| word(given, ACCESS_TYPES, reader));
     if let Some(own) = &own {
         let right = match own.as_str() {
             "read" | "noAccess" => "ro",
@@ -264,17 +292,18 @@ fn access(
         }
     }
     // A parameter without access is readable.
-    let of_parameter = |parameter: Parameter<'_, '_>| {
-        let access = parameter.access(reader);
-        access.unwrap_or_else(|| Spanned::new("read".into(), header))
-    };
-    let given = own.or_else(|| parameter.map(of_parameter));
-    let word = |given: &Spanned<String>| {
+    let given = own.or_else(|| {
+        Some(match parameter?.access(reader) {
+            Some(access) => word(access, ACCESSES, reader),
+            None => Spanned::new("read".into(), header),
+        })
+    });
+    let of_eds = |given: &Spanned<String>| {
         match given.as_str() {
             "read" | "noAccess" => "ro",
             "write" => "wo",
-            "readWrite" | "rw" if direction.eq_ignore_ascii_case("TPDO") => "rwr",
-            "readWrite" | "rw" if direction.eq_ignore_ascii_case("RPDO") => "rww",
+            "readWrite" | "rw" if direction == "TPDO" => "rwr",
+            "readWrite" | "rw" if direction == "RPDO" => "rww",
             "readWrite" => "rw",
             "readWriteInput" => "rwr",
             "readWriteOutput" => "rww",
@@ -282,11 +311,11 @@ fn access(
         }
         .to_string()
     };
-    let access = given.map(|given| Spanned::new(word(&given), given.span));
+    let access = given.map(|given| Spanned::new(of_eds(&given), given.span));
     let mappable = mapping.map(|mapping| {
-        let flag = match mapping.to_ascii_lowercase().as_str() {
+        let flag = match mapping.as_str() {
             "no" => "0".into(),
-            "default" | "optional" | "tpdo" | "rpdo" => "1".into(),
+            "default" | "optional" | "TPDO" | "RPDO" => "1".into(),
             _ => {
                 reader.log.push(w0406_in_xdd(&mapping));
                 "0".into()

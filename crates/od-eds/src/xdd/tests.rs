@@ -12,7 +12,7 @@ use od_model::{Access, Address, DataType, Group, ObjectCode};
 fn file(device: &str, network: &str) -> String {
     format!(
         "<?xml version=\"1.0\"?>\n<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.1\">\n\
-         <ISO15745Profile><ProfileBody fileName=\"x.xdd\" fileCreationDate=\"2026-07-14\" \
+         <ISO15745Profile><ProfileBody fileName=\"x.xpd\" fileCreationDate=\"2026-07-14\" \
          fileCreationTime=\"14:05:00\" fileVersion=\"3\">{device}</ProfileBody></ISO15745Profile>\n\
          <ISO15745Profile><ProfileBody>{network}</ProfileBody></ISO15745Profile>\n\
          </ISO15745ProfileContainer>\n"
@@ -147,7 +147,7 @@ fn content_besides_the_objects() {
         section.get(key).map(|value| value.value.clone())
     };
     for (section, key, value) in [
-        ("FileInfo", "FileName", "x.xdd"),
+        ("FileInfo", "FileName", "x.xpd"),
         ("FileInfo", "CreationDate", "07-14-2026"),
         ("FileInfo", "CreationTime", "02:05PM"),
         ("FileInfo", "Description", "Two lines"),
@@ -193,5 +193,21 @@ fn each_problem_has_a_place() {
         "<?xml",
     ] {
         assert!(parse(text).description.objects.is_empty());
+    }
+}
+
+#[test]
+fn an_xdd_has_no_values_of_one_device_and_an_xdc_has_its_node_id() {
+    let object = "<CANopenObjectList><CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"0005\" \
+         accessType=\"rw\" actualValue=\"5\"/></CANopenObjectList>";
+    let node = "<deviceCommissioning nodeID=\"5\" nodeName=\"a\" actualBaudRate=\"250 Kbps\"/>";
+    for (name, content, codes) in [
+        ("x.xdd", String::from(object), &["W0217"][..]),
+        ("x.xdd", format!("{object}{node}"), &["W0217", "W0217"]),
+        ("x.xdc", String::from(object), &["W0658"]),
+        ("x.xdc", format!("{object}{node}"), &[]),
+    ] {
+        let text = file("", &content).replace("x.xpd", name);
+        assert_eq!(self::codes(&parse(&text)), codes, "{name}: {content}");
     }
 }

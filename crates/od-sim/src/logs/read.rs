@@ -52,7 +52,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     let text = plain(&decoded(bytes));
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
     let lacks_times = is_untimed(&lines);
-    let Some(mut reader) = choose(&lines, lacks_times) else {
+    let Some((mut reader, is_candump)) = choose(&lines, lacks_times) else {
         let why = if text.trim().is_empty() {
             "it is empty: no frame was recorded".into()
         } else {
@@ -84,7 +84,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             }),
         }
     }
-    if are_deltas(&records) {
+    if is_candump && are_deltas(&records) {
         let mut at = Instant::ZERO;
         for record in &mut records {
             at = at.plus_micros(record.at.as_micros());
@@ -172,23 +172,24 @@ fn command(line: &str) -> &str {
     line.strip_prefix("cansend ").unwrap_or(line)
 }
 
-fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
+/// The reader of the format that a line of the head shows, and whether it is that of `candump`.
+fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, bool)> {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
     // The rows of some of them look like those of an ASC log.
     if head().any(columns::is_one) {
-        return Some(columns::reader(lines));
+        return Some((columns::reader(lines), false));
     }
     if head().any(trc::is_one) {
-        return Some(trc::reader(lines));
+        return Some((trc::reader(lines), false));
     }
     if head().any(asc::is_one) {
-        return Some(asc::reader(lines));
+        return Some((asc::reader(lines), false));
     }
     if head().any(csv::is_one) {
-        return Some(csv::reader(lines));
+        return Some((csv::reader(lines), false));
     }
     if head().any(adapters::is_one) {
-        return Some(adapters::reader());
+        return Some((adapters::reader(), false));
     }
     let is_candump = |line: &str| {
         let mut rest = Cursor::new(line);
@@ -197,7 +198,7 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     let is_one = lacks_times || head().any(is_candump);
     let mut is_error = false;
     is_one.then(|| {
-        Box::new(move |text: &'t str| {
+        let reader = Box::new(move |text: &'t str| {
             // `candump -e` explains an error frame in lines that begin with a tabulator.
             if is_error && text.starts_with('\t') {
                 return Ok(Entry::Nothing);
@@ -205,7 +206,8 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
             let read = line(text, lacks_times);
             is_error = matches!(&read, Ok(Entry::Record(record)) if record.what == What::Error);
             read
-        }) as Reader<'t>
+        });
+        (reader as Reader<'t>, true)
     })
 }
 

@@ -34,11 +34,13 @@ catalogue! {
     reader W0252
     w0253_dummy_type W0253
     w0254_object_links W0254
+    i0255_changed_before_created I0255
 }
 
 pub(crate) mod e0210_no_object;
 pub(crate) mod i0240_file_sections_missing;
 pub(crate) mod i0251_dummy_entry_missing;
+pub(crate) mod i0255_changed_before_created;
 pub(crate) mod reader;
 pub(crate) mod w0216_mandatory_key_missing;
 pub(crate) mod w0219_tools_sections;

@@ -347,12 +347,12 @@ pub(crate) fn w0215_unlisted(header: Span, index: u16, list: &str) -> Finding {
 }
 
 pub(crate) static W0217: Rule = Rule {
-    title: "key or section of a DCF in an EDS",
+    title: "key or section of a configured device in an EDS",
     why: "An EDS describes a type of device, a DCF one configured device. A tool ignores the value in an EDS, or configures every device of the type with it. odkit uses the value.",
-    source: "CiA 306-1, DCF",
+    source: "CiA 306-1, DCF; CiA 311, XDC",
     says: "`{name}` belongs to a DCF, and this file is an EDS",
     help: "remove the key, or save the file as a DCF (`FileName` and file name ending in `.dcf`)",
-    also: &[W0217_SECTION],
+    also: &[W0217_SECTION, W0217_XDD],
     ..Rule::of("W0217")
 };
 
@@ -362,8 +362,16 @@ const W0217_SECTION: Form = Form {
     help: "remove the section, or save the file as a DCF (`FileName` and file name ending in `.dcf`)",
 };
 
-pub(crate) fn w0217_dcf_key(key: &Text<'_>) -> Finding {
-    W0217.at(key.span).fact("name", &*key.value)
+/// Sentence for an attribute or an element of an XDD.
+const W0217_XDD: Form = Form {
+    says: "`{name}` belongs to an XDC, and this file is an XDD",
+    help: "remove it, or save the file as an XDC (`fileName` and file name ending in `.xdc`)",
+};
+
+/// The finding about a key, or an attribute if the file `is_xml`.
+pub(crate) fn w0217_dcf_key(at: Span, name: &str, is_xml: bool) -> Finding {
+    let form = if is_xml { &W0217_XDD } else { &Form::OWN };
+    W0217.at(at).form(form).fact("name", name)
 }
 
 pub(crate) fn w0217_dcf_section(header: Span, name: &str) -> Finding {

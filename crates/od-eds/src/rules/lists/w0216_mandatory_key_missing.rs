@@ -3,7 +3,8 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Info};
+use crate::span::Span;
 
 pub(crate) static W0216: Rule = Rule {
     title: "mandatory key of [FileInfo] or [DeviceInfo] is missing",
@@ -11,9 +12,23 @@ pub(crate) static W0216: Rule = Rule {
     source: "CiA 306-1, FileInfo and DeviceInfo",
     says: "[{section}] lacks {missing}",
     help: "add each key with its value, such as `{first}=`",
+    also: &[LAST_EDS],
     check: Check::Device(check),
     ..Rule::of("W0216")
 };
+
+/// Help for a DCF that does not name its EDS.
+const LAST_EDS: Form = Form {
+    help: "add `LastEDS=` and the name of the EDS from which the DCF was made",
+    ..Form::OWN
+};
+
+/// The finding about a DCF that does not name its EDS, at its `[FileInfo]`.
+pub(crate) fn w0216_last_eds_missing(at: Span) -> Finding {
+    let finding = W0216.at(at).form(&LAST_EDS).severity_of(Info);
+    let finding = finding.fact("section", "FileInfo");
+    finding.fact("missing", "`LastEDS`")
+}
 
 /// The mandatory keys. ModificationTime, ModificationDate and ModifiedBy belong to files that were changed;
 /// OrderCode, DynamicChannelsSupported and GroupMessaging to devices that have them.

@@ -24,7 +24,9 @@ fn check_io(description: &Description, findings: &mut Vec<Finding>) {
     let Some(device) = device(description, 401) else {
         return;
     };
-    let blocks = IO_BLOCKS.iter().filter(|(bit, _, _)| device.has(*bit));
+    let blocks = IO_BLOCKS
+        .iter()
+        .filter(|(bit, _, _)| device.has(*bit) == Some(true));
     findings.extend(blocks.filter_map(|(bit, any_of, what)| {
         let finding = need(&W0901, description, any_of, what)?;
         Some(finding.fact("bit", bit + 16))
@@ -94,7 +96,9 @@ fn check_blocks(description: &Description, findings: &mut Vec<Finding>) {
     let Some(device) = device(description, 404) else {
         return;
     };
-    let blocks = BLOCKS.iter().filter(|(bit, _, _)| device.has(*bit));
+    let blocks = BLOCKS
+        .iter()
+        .filter(|(bit, _, _)| device.has(*bit) == Some(true));
     findings.extend(blocks.filter_map(|(bit, any_of, what)| {
         let finding = need(&W0903, description, any_of, what)?;
         Some(finding.fact("bit", bit + 16))

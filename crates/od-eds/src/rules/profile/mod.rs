@@ -19,9 +19,10 @@ catalogue! {
     w0914_value_reserved W0914
     w0915_divisor_0 W0915
     e0916_drive_sub_object_missing E0916
-    w0917_drive_value_above_maximum W0917
+    w0917_drive_value_outside_limits W0917
     w0918_drive_mode_not_displayed W0918
     w0919_drive_mode_fixed W0919
+    w0920_scaling_points_equal W0920
     overview W0950
     overview W0951
     w0952_encoder_range W0952
@@ -48,9 +49,10 @@ pub(crate) mod w0912_io_channels_missing;
 pub(crate) mod w0913_io_channels_not_declared;
 pub(crate) mod w0914_value_reserved;
 pub(crate) mod w0915_divisor_0;
-pub(crate) mod w0917_drive_value_above_maximum;
+pub(crate) mod w0917_drive_value_outside_limits;
 pub(crate) mod w0918_drive_mode_not_displayed;
 pub(crate) mod w0919_drive_mode_fixed;
+pub(crate) mod w0920_scaling_points_equal;
 pub(crate) mod w0952_encoder_range;
 pub(crate) mod w0953_position_not_mappable;
 pub(crate) mod w0954_operating_status;

@@ -15,9 +15,13 @@ pub(super) struct DeviceType {
 }
 
 impl DeviceType {
-    /// Returns whether this bit of the upper half of 1000h is set.
-    pub(super) const fn has(self, bit: u32) -> bool {
-        self.additional & 1 << bit != 0
+    /// Returns whether this bit of the upper half of 1000h is set; `None` if the upper half is FFFFh, that of a module
+    /// of several logical devices (CiA 301, object 1000h).
+    pub(super) const fn has(self, bit: u32) -> Option<bool> {
+        match self.additional {
+            0xFFFF => None,
+            bits => Some(bits & 1 << bit != 0),
+        }
     }
 }
 

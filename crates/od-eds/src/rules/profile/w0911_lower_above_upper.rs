@@ -10,7 +10,7 @@ use od_model::Address;
 pub(crate) static W0911: Rule = Rule {
     title: "lower limit of a device is above the upper one",
     why: "No value is between the limits: a drive rejects every position, and an area or an alarm has no effect.",
-    source: "CiA 401, 6424h, 6425h, 6429h, 642Ah; CiA 402, 6046h, 607Bh, 607Dh; CiA 404, 6134h, 6135h; CiA 406, 6401h, 6402h",
+    source: "CiA 401, 6424h, 6425h, 6429h, 642Ah; CiA 402, 6046h, 607Bh, 607Dh; CiA 404, 6134h to 6149h; CiA 406, 6401h, 6402h",
     says: "upper limit {object} is {high}, but lower limit {lower} is {low}",
     help: "write the lower limit to {lower} and the upper limit to {object}",
     check: Check::Entry(check),
@@ -27,7 +27,7 @@ fn lower(upper: Address) -> Option<(u16, Address)> {
         (0x6046 | 0x607B | 0x607D, 2) => (402, index, 1),
         (0x6424 | 0x6429, 1..=254) => (401, index + 1, sub),
         (0x6402, 1..=254) => (406, index - 1, sub),
-        (0x6135, 1..=254) => (404, index - 1, sub),
+        (0x6135 | 0x6149, 1..=254) => (404, index - 1, sub),
         _ => return None,
     };
     Some((profile, Address::new(index, sub)))

@@ -23,7 +23,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some((device, number)) = device(description, 401).zip(number) else {
         return;
     };
-    for (bit, objects, what) in IO_BLOCKS.iter().filter(|(bit, _, _)| !device.has(*bit)) {
+    let blocks = IO_BLOCKS.iter();
+    for (bit, objects, what) in blocks.filter(|(bit, _, _)| device.has(*bit) == Some(false)) {
         let found = objects
             .iter()
             .find(|index| description.objects.contains_key(index));

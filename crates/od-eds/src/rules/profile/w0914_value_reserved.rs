@@ -8,7 +8,7 @@ use od_model::Address;
 pub(crate) static W0914: Rule = Rule {
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, 6421h, 6443h; CiA 402, 6007h to 6502h; CiA 404, 6110h; CiA 406, 6000h, 6503h to 6506h; CiA 303-2",
+    source: "CiA 401, 6421h, 6443h; CiA 402, 6007h to 6502h; CiA 406, 6000h, 6503h to 6506h; CiA 303-2",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
@@ -47,7 +47,6 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
         (0x6430 | 0x6450, 1..=254) => (401, !is_prefix(number), PREFIX),
         (0x60A8..=0x60AB, 0) => (402, !is_prefix(number), PREFIX),
         (0x6131 | 0x6301, 1..=254) => (404, !is_prefix(number), PREFIX),
-        (0x6110, 1..=254) => (404, number == 0, "0"),
         (0x6000, 0) => (406, number & 0x0FF0 != 0, "bits 4 to 11"),
         (0x6503 | 0x6504, 0) => (406, number & 0x0FFC != 0, "bits 2 to 11"),
         (0x6505 | 0x6506, 0) => (406, number & 0x0FC0 != 0, "bits 6 to 11"),

@@ -144,14 +144,23 @@ pub(crate) fn i0611_commissioning_spelling(header: Span, is_valid: bool) -> Find
 }
 
 pub(crate) static W0658: Rule = Rule {
-    title: "DCF without [DeviceComissioning]",
+    title: "DCF or XDC without the node ID of its device",
     why: "A master that configures by the DCF has no node ID and no bit rate for the device.",
-    source: "CiA 306-1, DeviceComissioning",
+    source: "CiA 306-1, DeviceComissioning; CiA 311, deviceCommissioning",
     says: "section [DeviceComissioning] is missing, and this file is a DCF",
     help: "add a section [DeviceComissioning] with `NodeID=` and `Baudrate=`",
+    also: &[W0658_XDC],
     ..Rule::of("W0658")
 };
 
-pub(crate) fn w0658_commissioning_missing() -> Finding {
-    W0658.finding()
+/// Sentence for an XDC.
+const W0658_XDC: Form = Form {
+    says: "element deviceCommissioning is missing, and this file is an XDC",
+    help: "add `<deviceCommissioning nodeID=\"1\" actualBaudRate=\"250 Kbps\"/>` with the values of the device to NetworkManagement",
+};
+
+/// The finding about a DCF, or an XDC if the file `is_xml`, without the node ID of its device.
+pub(crate) fn w0658_commissioning_missing(is_xml: bool) -> Finding {
+    let form = if is_xml { &W0658_XDC } else { &Form::OWN };
+    W0658.finding().form(form)
 }

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::{is_communication, maps_rpdo};
+use crate::span::Spanned;
 use crate::standards::cia301::of;
 use crate::subject::Entry;
 use od_model::{Address, DataType};
@@ -21,8 +22,19 @@ pub(crate) static W0631: Rule = Rule {
     ..Rule::of("W0631")
 };
 
+/// Sub-index with the structure of its object: object code and data type (CiA 301, sub-index FFh).
+const STRUCTURE: u8 = 0xFF;
+
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let Address { index, sub } = entry.address;
+    if sub == STRUCTURE && entry.object.code.has_members() {
+        let right = DataType::Unsigned32;
+        let given = entry.data_type.filter(|given| **given != right);
+        findings.extend(
+            given.map(|given| other(entry, given, right, ("structure of the object", "CiA 301"))),
+        );
+        return;
+    }
     let own_rule = matches!(index, 0x1000 | 0x1001 | 0x1018)
         || is_communication(index) && sub <= 2
         || maps_rpdo(index).is_some();
@@ -36,14 +48,21 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         // The bytes on the bus are the same.
         && (*given, value.data_type) != (DataType::Domain, DataType::OctetString)
     {
-        let code = format!("0x{:04X}", value.data_type.code());
-        let finding = W0631.on(entry, given.span).fact("object", entry.shown());
-        let finding = finding
-            .fact("name", standard.name)
-            .fact("right", value.data_type);
-        let finding = finding
-            .fact("standard", standard.source())
-            .fact("given", *given);
-        findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, code)));
+        let words = (standard.name, standard.source());
+        findings.push(other(entry, given, value.data_type, words));
     }
+}
+
+/// The finding about a value with this type, whose right one is in the standard under this name.
+fn other(
+    entry: &Entry<'_>,
+    given: Spanned<DataType>,
+    right: DataType,
+    (name, standard): (&'static str, &'static str),
+) -> Finding {
+    let code = format!("0x{:04X}", right.code());
+    let finding = W0631.on(entry, given.span).fact("object", entry.shown());
+    let finding = finding.fact("name", name).fact("right", right);
+    let finding = finding.fact("standard", standard).fact("given", *given);
+    finding.fix(Fix::unsafe_fix().replace(given.span, code))
 }

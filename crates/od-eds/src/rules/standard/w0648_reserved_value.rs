@@ -9,7 +9,7 @@ pub(crate) static W0648: Rule = Rule {
     buildable: true,
     title: "value of a standard object is reserved",
     why: "A device that follows the standard aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 301, chapter 7.5; CiA 302-2, object 1F80h; CiA 302-3, object 1F51h",
+    source: "CiA 301, chapter 7.5; CiA 302-2, objects 1F80h and 1F82h; CiA 302-3, objects 1F27h, 1F51h and 1F54h",
     says: "{object} ({name}) is 0x{given:X}, but {standard} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
@@ -31,11 +31,18 @@ fn reserved(address: Address, number: u64) -> Option<&'static str> {
         (0x1014, 0) => (number & 1 << 30 != 0, "bit 30"),
         (0x1016, 1..=254) => (number >> 24 != 0, "bits 24 to 31"),
         (0x1019, 0) => (matches!(number, 1 | 241..), "1 and 241 to 255"),
+        // Milliseconds after midnight.
+        (0x1020, 2) | (0x1F27 | 0x1F54, 1..=254) => {
+            (number >= 86_400_000, "86400000 (24 hours) and above")
+        }
+        (0x1023 | 0x1025, 2) => (matches!(number, 4..=254), "4 to 254"),
         (0x1022, 0) => (matches!(number, 1..=0x7F), "1 to 127"),
         (0x1028, 1..=254) => (number & 1 << 30 != 0, "bit 30"),
         (0x1029, 1..=254) => (matches!(number, 3..=0x7F), "3 to 127"),
         (0x1201..=0x12FF, 3) => (number > 127, "128 to 255"),
+        // Commands of manufacturers begin at 80h: Zephyr's confirmation of a program is one.
         (0x1F51, 1..=254) => (matches!(number, 4..=0x7F), "4 to 127"),
+        (0x1F82, 1..=128) => (matches!(number, 2 | 3 | 8..=126), "2, 3 and 8 to 126"),
         (0x1F80, 0) => (number >> 7 != 0, "bits 7 to 31"),
         (0x1800..=0x19FF, 6) => (matches!(number, 241..), "241 to 255"),
         _ => return None,

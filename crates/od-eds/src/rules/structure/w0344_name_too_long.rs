@@ -1,23 +1,43 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Form, Rule};
+use crate::scan::section::Text;
 use crate::span::Spanned;
 use crate::subject::Object;
 use crate::subject::Subject;
 
 pub(crate) static W0344: Rule = Rule {
-    title: "name is longer than 241 characters",
-    why: "Some tools cut a name after 241 characters, the limit of CiA 306.",
-    source: "CiA 306-1, object sections",
+    title: "name or text is too long for its line",
+    why: "Some tools cut a line after 255 characters, the limit of CiA 306: 241 for a name, 244 for VendorName.",
+    source: "CiA 306-1, file format and object sections",
     says: "the name has {length} characters; the limit is {limit}",
     help: "write a shorter name",
+    also: &[TEXT],
     check: Check::Object(check),
     ..Rule::of("W0344")
 };
 
+/// Sentence for a text outside the object sections.
+const TEXT: Form = Form {
+    says: "{field} has {length} characters; the limit is {limit}",
+    help: "write a shorter text",
+};
+
+/// Longest line, in characters.
+const LINE: usize = 255;
+
 /// Longest name, in characters.
-const LIMIT: usize = 241;
+const LIMIT: usize = LINE - "ParameterName=".len();
+
+/// The finding about the text of a key whose line is too long; `None` if it is not.
+pub(crate) fn text_too_long(key: &str, given: &Text<'_>) -> Option<Finding> {
+    let length = given.chars().count();
+    let limit = LINE.saturating_sub(key.len() + "=".len());
+    let finding = W0344.at(given.span).form(&TEXT).fact("field", key);
+    let finding = finding.fact("length", length).fact("limit", limit);
+    (length > limit).then_some(finding)
+}
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     report(object, &object.name, findings);
