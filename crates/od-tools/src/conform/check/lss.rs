@@ -142,12 +142,17 @@ pub(super) fn selective_other(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn waiting_silent(dut: &mut Dut<'_>) -> Checked {
     begin(dut)?;
     let why = "as the node is in the waiting state";
+    let node_id = dut.node.raw();
     for request in [
         Request::InquireNodeId,
         Request::Inquire { part: Part::Vendor },
-        Request::ConfigureNodeId {
-            node_id: dut.node.raw(),
+        Request::ConfigureNodeId { node_id },
+        Request::ConfigureBitTiming {
+            table: 0,
+            index: 0x55,
         },
+        Request::ActivateBitTiming { delay_ms: 100 },
+        Request::Store,
     ] {
         stays_silent(dut, request.emit(), why)?;
     }

@@ -322,6 +322,26 @@ pub(super) fn set_point(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_POSITION, |dut, axis| {
         let target = axis.value(dut, 0x6064)? + axis.way(dut)?;
         axis.set_point(dut, target, 0)?;
+        axis.arrives(dut, target)?;
+        if !dut.eds.writes(0x6081 + axis.0, 0) || !axis.has(dut, 0x606C) {
+            return Ok(());
+        }
+        let pace = axis.pace(dut)?;
+        axis.set(dut, 0x6081, pace)?;
+        let target = target - axis.way(dut)?;
+        axis.set_point(dut, target, 0)?;
+        let end = dut.now().plus_micros(MOVE);
+        let window = axis.window(dut, 0x606D)?.max(pace / 10);
+        let mut speed = 0;
+        while axis.value(dut, 0x6041)? as u64 & REACHED.1 == 0 && dut.now() < end {
+            speed = axis.value(dut, 0x606C)?.abs().max(speed);
+            dut.wait(2_000)?;
+        }
+        ensure(
+            speed <= pace + window,
+            format!("{} within {pace}, the value of 6081h", axis.at(0x606C)),
+            format!("{speed} was read"),
+        )?;
         axis.arrives(dut, target)
     })
 }
@@ -412,7 +432,43 @@ pub(super) fn velocity(dut: &mut Dut<'_>) -> Checked {
         axis.set(dut, 0x60FF, 0)?;
         axis.shows(dut, MOVE, ("speed zero, bit 12 = 1", 1 << 12, 1 << 12))?;
         let (is, window) = (axis.value(dut, 0x606C)?, axis.standing(dut)?);
-        axis.is_at(0x606C, is, 0, window, "when bit 12 is 1")
+        axis.is_at(0x606C, is, 0, window, "when bit 12 is 1")?;
+        if !dut.eds.writes(0x607F + axis.0, 0) || pace < 2 {
+            return Ok(());
+        }
+        axis.set(dut, 0x607F, pace / 2)?;
+        axis.set(dut, 0x60FF, pace)?;
+        let window = axis.window(dut, 0x606D)?.max(pace / 100);
+        axis.comes_to(dut, 0x606C, pace / 2, window, "with this value in 607Fh")?;
+        dut.wait(200_000)?;
+        let is = axis.value(dut, 0x606C)?;
+        axis.is_at(0x606C, is, pace / 2, window, "with this value in 607Fh")
+    })
+}
+
+/// Bit 6 of 607Eh turns the direction of a velocity, not the sign of 606Ch; bit 7 turns the sign of positions.
+pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        for (polarity, sign) in [(0, 1), (0x40, -1)] {
+            axis.recover(dut)?;
+            axis.choose(dut, 0x607E, polarity)?;
+            axis.enable(dut)?;
+            axis.runs(dut, pace)?;
+            let from = axis.value(dut, 0x6064)?;
+            dut.wait(200_000)?;
+            let way = axis.value(dut, 0x6064)? - from;
+            ensure(
+                way * sign > 0,
+                format!(
+                    "{} to become {} with {pace} in 60FFh and {polarity:02X}h in 607Eh",
+                    axis.at(0x6064),
+                    if sign > 0 { "greater" } else { "smaller" }
+                ),
+                format!("it changed by {way}"),
+            )?;
+        }
+        Ok(())
     })
 }
 

@@ -382,7 +382,9 @@ pub(super) fn delta(dut: &mut Dut<'_>) -> Checked {
             );
             expect(sent, wanted, id, &when)?;
         }
-        Ok(())
+        dut.set(Address::new(0x6423, 0), &[0])?;
+        let sent = caused(dut, id, |dut| put(dut, wire.output, STEP))?;
+        expect(sent, false, id, "with 0 in 6423h")
     })
 }
 

@@ -93,9 +93,35 @@ pub(super) fn save(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn save_communication(dut: &mut Dut<'_>) -> Checked {
     match dut.eds.entry(0x1010, 2) {
-        Some(_) => saved(dut, 2),
-        None => lacks("1010h has no sub-index 2"),
+        Some(_) => saved(dut, 2)?,
+        None => return lacks("1010h has no sub-index 2"),
     }
+    saves_no_communication(dut)
+}
+
+/// 1010h:03 saves the parameters of the application only.
+fn saves_no_communication(dut: &mut Dut<'_>) -> Checked {
+    let other = another_saved(dut, Some(2))?;
+    let Some((address, bytes)) = other.filter(|_| dut.eds.entry(0x1010, 3).is_some()) else {
+        return Ok(());
+    };
+    let before = dut.read(address)?;
+    dut.write(address, &bytes)?;
+    command(dut, 0x1010, 3, b"save")?;
+    dut.reset(Command::ResetNode)?;
+    let after = dut.read(address)?;
+    if after != before {
+        dut.write(address, &before)?;
+        command(dut, 0x1010, 2, b"save")?;
+    }
+    ensure(
+        after == before,
+        format!(
+            "{} in {address} after the reset: 1010h:03 does not save it",
+            values::hex(&before)
+        ),
+        format!("{} was read", values::hex(&after)),
+    )
 }
 
 /// A value that this sub-index saves is active after a reset.

@@ -105,21 +105,32 @@ pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
     none(dut, &pdo, 300_000, "no TPDO without SYNC")
 }
 
+/// Each TPDO that allows remote frames and has a mapping.
 pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
-    let pdo = first(dut)?;
-    if !CobId::new(pdo.cob_id).allows_rtr() {
-        return lacks("the COB-ID does not allow remote frames (bit 30)");
-    }
+    first(dut)?;
     dut.nmt(Command::Start)?;
-    dut.drain()?;
-    let bits: usize = mapping(dut, pdo.map())?
-        .iter()
-        .map(|mapped| mapped.bits)
-        .sum();
-    dut.ask_for(pdo.id(), bits.div_ceil(8) as u8)?;
-    match next(dut, &pdo, QUIET)? {
-        Some(_) => Ok(()),
-        None => fail("a TPDO within 100 ms of the remote frame", "none came"),
+    let mut is_tested = false;
+    for pdo in dut.eds.pdos(0x1800) {
+        let com = 0x1800 + pdo;
+        let cob_id = dut.number(com, 1)? as u32;
+        let pdo = Tpdo { com, cob_id };
+        let mapped = mapping(dut, pdo.map())?;
+        let bits: usize = mapped.iter().map(|mapped| mapped.bits).sum();
+        if !is_on(cob_id) || !CobId::new(cob_id).allows_rtr() || bits == 0 {
+            continue;
+        }
+        is_tested = true;
+        dut.drain()?;
+        dut.ask_for(pdo.id(), bits.div_ceil(8) as u8)?;
+        if next(dut, &pdo, QUIET)?.is_none() {
+            let expected = format!("the TPDO {} within 100 ms of its remote frame", pdo.id());
+            dut.fault(fail(expected, "none came"))?;
+        }
+    }
+    if is_tested {
+        Ok(())
+    } else {
+        lacks("no COB-ID allows remote frames (bit 30)")
     }
 }
 

@@ -5,9 +5,9 @@ use od_wire::AbortCode::{
     InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
     ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
 };
-use od_wire::Frame;
+use od_wire::{CobId, Frame};
 
-use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
@@ -276,8 +276,51 @@ pub(super) fn parameters(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// The node has the SDO servers of the EDS from 1201h on, and no others.
+/// Each server of the EDS responds on its own CAN-IDs; one that is not valid gets some first.
 pub(super) fn servers(dut: &mut Dut<'_>) -> Checked {
-    listed(dut, 0x1201..=0x1208)
+    listed(dut, 0x1201..=0x1208)?;
+    for index in 0x1201..=0x1208 {
+        if dut.eds.entry(index, 2).is_some() {
+            let done = serves(dut, index);
+            dut.fault(done)?;
+        }
+    }
+    Ok(())
+}
+
+fn serves(dut: &mut Dut<'_>, index: u16) -> Checked {
+    // From the server first, as the channel is valid with both.
+    let parts = [Address::new(index, 2), Address::new(index, 1)];
+    let mut ids = Vec::new();
+    for (address, free) in parts.into_iter().zip([0x6D0, 0x6B0]) {
+        let mut cob_id = CobId::new(dut.number(index, address.sub)? as u32);
+        if !cob_id.is_valid() {
+            let own = CobId::new(free + u32::from(index & 0xF));
+            dut.keep(address)?;
+            if !dut.eds.writes(index, address.sub)
+                || dut.download(address, &own.raw().to_le_bytes())?.is_err()
+            {
+                return Ok(());
+            }
+            cob_id = own;
+        }
+        ids.push(cob_id.can_id());
+    }
+    let [answer, ask] = ids[..] else {
+        return Ok(());
+    };
+    let request = request(0x40, TYPE, [0; 4]);
+    dut.drain()?;
+    dut.send(Frame::full(ask, request))?;
+    let expected = format!("a response {answer} to {ask}, by the SDO server {index:04X}h");
+    match dut.awaited(ANSWER, |frame| frame.id() == answer && !frame.is_remote())? {
+        Some(heard) => ensure(
+            heard.frame.dlc() == 8 && heard.frame.bytes()[1..4] == request[1..4],
+            expected,
+            format!("{} came", heard.frame),
+        ),
+        None => fail(expected, "none came"),
+    }
 }
 
 pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
