@@ -83,7 +83,7 @@ fn a_lesson_run_reports_open_conditions() {
                     (0.504580) can0 705#7F\n\
                     # step 2 of 5 is open: Configure a heartbeat of 500 ms\n\
                     #   holds    1017h is written over the bus\n\
-                    #   holds    1017h Producer heartbeat time is 500\n\
+                    #   holds    1017h is 500\n\
                     #   missing  three heartbeats come, half a second apart (1 of 3 so far)\n\
                     # hint 1 of 3: ";
     assert!(taken.out.starts_with(expected), "{}", taken.out);
