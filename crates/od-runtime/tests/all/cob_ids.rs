@@ -1,6 +1,8 @@
 //! A node never sends with a CAN-ID that it may not use, wherever the COB-ID comes from (CiA 301,
 //! table 40: restricted CAN-IDs; chapters 7.5.2.5 to 7.5.2.37: the COB-ID objects). The fuzz target
-//! `cob_ids` tries any COB-IDs.
+//! `cob_ids` tries more of them, with saved images, RPDOs and LSS.
+
+use std::collections::BTreeMap;
 
 use crate::support::{Bench, Row, rows, unsigned};
 use od_eds::Value;
@@ -162,4 +164,133 @@ fn a_released_cob_id_is_usable_again() {
     bench.ask("601#2300180181010000");
     assert_eq!(refused(&mut bench), [0x1801]);
     assert_eq!(bench.send("181#R8"), ["181#05000000"]);
+}
+
+/// xorshift64*: the same devices on every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 16
+    }
+
+    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.next() as usize % from.len()]
+    }
+
+    /// A COB-ID that is wrong more often than at random, fixed or with the node ID.
+    fn cob_id(&mut self) -> Value {
+        let id = self.pick(&[
+            0x000,
+            0x001,
+            0x07F,
+            0x080,
+            0x0FF,
+            0x100,
+            0x101,
+            0x180,
+            0x181,
+            0x200,
+            0x580,
+            0x581,
+            0x5FF,
+            0x600,
+            0x601,
+            0x67F,
+            0x6A0,
+            0x6E0,
+            0x6FF,
+            0x700,
+            0x701,
+            0x780,
+            0x790,
+            0x7E5,
+            0x7FF,
+            0x800,
+            0xFFF,
+            0x1_0181,
+            0x1FFF_FFFF,
+        ]);
+        let flags = self.pick(&[0, 0, 0, 1 << 29, 1 << 30, 3 << 29, 1 << 31, 7 << 29]);
+        if self.next().is_multiple_of(2) {
+            Value::NodeId(id | flags)
+        } else {
+            Value::Unsigned(u64::from(id | flags))
+        }
+    }
+}
+
+/// The service that sent a frame, by its CAN-ID (services with a fixed one) or its data.
+fn service(frame: &str, own: u8) -> &'static str {
+    let (id, data) = frame.split_once('#').expect("id#data");
+    let is_standard = id.len() == 3;
+    let id = u32::from_str_radix(id, 16).expect("hex");
+    if is_standard && id == 0x700 + u32::from(own) && data.len() == 2 {
+        return "error control";
+    }
+    if is_standard && id == 0x580 + u32::from(own) {
+        return "default SDO";
+    }
+    assert!(
+        !(is_standard && od_model::is_restricted(id)),
+        "node {own} sends {frame}"
+    );
+    match data {
+        "" => "SYNC",
+        "000000000100" | "020000000100" => "TIME",
+        "05000000" => "TPDO 1",
+        "07000000" => "TPDO 2",
+        _ if data.ends_with("EEEEEEEEEE") => "EMCY",
+        // An RPDO that is shorter than its mapping (8210h).
+        _ if data.len() == 16 && data.ends_with("110000000000") => "EMCY",
+        _ if data.len() == 16 => "SDO server 1",
+        _ => panic!("node {own} sends {frame}"),
+    }
+}
+
+#[test]
+fn no_node_sends_with_a_restricted_can_id_or_one_of_another_service() {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut seen = BTreeMap::<&'static str, u32>::new();
+    for _ in 0..600 {
+        let objects = [
+            (0x1005, 0),
+            (0x1012, 0),
+            (0x1014, 0),
+            (0x1201, 1),
+            (0x1201, 2),
+            (0x1400, 1),
+            (0x1401, 1),
+            (0x1800, 1),
+            (0x1801, 1),
+        ];
+        let mut cob_ids = vec![((0x1006, 0), Value::Unsigned(10_000))];
+        for address in objects {
+            if !random.next().is_multiple_of(4) {
+                cob_ids.push((address, random.cob_id()));
+            }
+        }
+        let mut rows = device(&cob_ids);
+        for row in &mut rows {
+            if matches!((row.0, row.1), (0x1800 | 0x1801, 2)) {
+                row.5 = unsigned(random.pick(&[1, 253, 255]));
+            }
+        }
+        let own = random.pick(&[1, 2, 16, 96, 111, 112, 126, 127]);
+        let mut bench = Bench::with(rows, Talker::default());
+        bench = bench.at(NodeId::new(own).unwrap());
+        let mut owners = BTreeMap::new();
+        for frame in all_frames(&mut bench) {
+            let service = service(&frame, own);
+            *seen.entry(service).or_default() += 1;
+            let (id, _) = frame.split_once('#').unwrap();
+            let owner = *owners.entry(id.to_string()).or_insert(service);
+            assert_eq!(owner, service, "node {own}, {cob_ids:?}: {frame}");
+        }
+    }
+    // Each service sent at least one frame.
+    assert_eq!(seen.len(), 8, "{seen:?}");
 }
