@@ -99,12 +99,20 @@ pub(super) fn save_communication(dut: &mut Dut<'_>) -> Checked {
     saves_no_communication(dut)
 }
 
-/// 1010h:03 saves the parameters of the application only.
+/// Returns whether this sub-index of 1010h says that the node saves on command (bit 0).
+fn saves_on_command(dut: &mut Dut<'_>, sub: u8) -> Checked<bool> {
+    Ok(dut.number(0x1010, sub)? & 1 != 0)
+}
+
+/// 1010h:03 saves the parameters of the application only, if the node saves them on command.
 fn saves_no_communication(dut: &mut Dut<'_>) -> Checked {
     let other = another_saved(dut, Some(2))?;
     let Some((address, bytes)) = other.filter(|_| dut.eds.entry(0x1010, 3).is_some()) else {
         return Ok(());
     };
+    if !saves_on_command(dut, 3)? {
+        return Ok(());
+    }
     let before = dut.read(address)?;
     dut.write(address, &bytes)?;
     command(dut, 0x1010, 3, b"save")?;
@@ -126,6 +134,9 @@ fn saves_no_communication(dut: &mut Dut<'_>) -> Checked {
 
 /// A value that this sub-index saves is active after a reset.
 fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
+    if !saves_on_command(dut, sub)? {
+        return lacks("the node does not save on command");
+    }
     let Some((address, bytes)) = another_saved(dut, Some(sub))? else {
         return lacks("no parameter of communication can be written");
     };
