@@ -8,7 +8,7 @@ const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.
 async function faults(page, part) {
   // The policy of the page allows only its own scripts.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe);
-  // What holds needs no address. Only a rule on sound and an experimental one need files that axe would load before.
+  // Only violations need an address. A rule about sound and an experimental rule need preloaded files; no other rule does.
   const { violations } = await page.evaluate((part) => globalThis.axe.run(part, { resultTypes: ['violations'], preload: false }), part);
   return violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(', ')}`);
 }

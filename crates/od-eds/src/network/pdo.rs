@@ -12,7 +12,7 @@ use super::node::Node;
 /// A PDO that is not valid (bit 31 of its COB-ID).
 const INVALID: u32 = 1 << 31;
 
-/// What is wrong with a PDO: the place in its mapping, counted from 0, if it is an object there; and why, in words.
+/// A fault of a PDO: the position of the wrong object in its mapping, counted from 0, or `None`; and the reason, in words.
 type Wrong = (Option<usize>, String);
 
 /// Appends the writes of a PDO; `next` is the next CAN-ID for PDOs without a pre-defined one.
@@ -142,7 +142,7 @@ fn entry(node: &Node, index: u16, at: usize, address: Address) -> Result<Write, 
     node.write(index, sub, number.into())
 }
 
-/// What is wrong with a PDO, but not with an object of its mapping.
+/// A fault of a PDO that is not one of its mapped objects.
 const fn of_pdo(why: String) -> Wrong {
     (None, why)
 }

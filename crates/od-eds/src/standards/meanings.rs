@@ -26,7 +26,7 @@ enum What {
     Bits(&'static [(u8, &'static str)]),
     /// A mask of bits, their pattern, and its meaning; the first match counts.
     Patterns(&'static [(i64, i64, &'static str)]),
-    /// What a bit of a mask says about the channel with its number.
+    /// Meaning of a bit that is set; the number of the bit is that of the channel.
     Channels(&'static str),
     /// A unit of CiA 303-2.
     Unit,

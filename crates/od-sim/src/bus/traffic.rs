@@ -14,10 +14,10 @@ const LONGEST_FRAME: u64 = 163;
 const BETWEEN_REPORTS: u64 = 1_000_000;
 
 impl Bus {
-    /// Queues a frame of the outside for the line. It is [polled](Bus::poll) after its
-    /// transmission.
-    pub(super) fn queue(&mut self, frame: &Frame) {
-        self.line.medium.push(0, *frame, self.now);
+    /// Queues a frame of the outside for a real line. It is [polled](Bus::poll) after its
+    /// transmission. Returns `false` if the queue is full, and the frame is lost.
+    pub(crate) fn queue(&mut self, frame: &Frame) -> bool {
+        self.line.medium.push(0, *frame, self.now)
     }
 
     /// The next deadline of any device, of a controller that recovers from bus-off, or of a frame
@@ -73,7 +73,7 @@ impl Bus {
         self.line.medium.waits(frame)
     }
 
-    /// What became of a frame that the outside gave to a real line: whether it was sent, or waits its turn.
+    /// Returns whether a frame that the outside gave to a real line was sent; `false`: it waits its turn.
     ///
     /// # Errors
     /// Reason why it is not on the line, and what to do.

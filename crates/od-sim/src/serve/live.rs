@@ -431,11 +431,11 @@ impl Live {
     /// Puts a frame from outside on the bus, with its effects. On a real line the others receive it when it was sent.
     pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) {
         let bus = &mut self.bench.bus;
-        bus.receive(frame);
         if !bus.line.is_real() {
+            bus.receive(frame);
             let now = bus.now();
             self.pass_on(frame, now, from);
-        } else if bus.is_waiting(frame) {
+        } else if bus.queue(frame) {
             self.sending.push_back((*frame, from));
         }
         self.deliver();

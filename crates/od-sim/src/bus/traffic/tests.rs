@@ -276,3 +276,11 @@ fn a_device_that_is_not_connected_takes_no_time_of_the_line() {
     assert_eq!(all.len(), 1, "{all:?}");
     assert_eq!(all[0].1, "701#00");
 }
+
+#[test]
+fn the_queue_of_the_outside_takes_no_more_than_a_thousand_frames() {
+    let mut bus = bus(500, &[]);
+    let frame = parse_frame("123#00").expect("a frame");
+    let taken = (0..1200).filter(|_| bus.queue(&frame)).count();
+    assert_eq!(taken, 1000);
+}
