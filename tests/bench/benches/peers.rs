@@ -1,4 +1,4 @@
-//! `cargo bench -p od-benches [-- timing | counts | table | count …]`
+//! `cargo bench -p od-benches --features peers [-- timing | counts | table | count …]`
 //!
 //! - nothing: `timing`, then `counts`, then the table
 //! - `timing`: nanoseconds per operation; `OD_BENCH_ROUNDS` (default 800) rounds

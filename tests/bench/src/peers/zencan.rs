@@ -70,7 +70,7 @@ mod one_thread {
     struct OneThread;
     critical_section::set_impl!(OneThread);
 
-    // SAFETY: neither the benches nor `od-benches-count` start a second thread.
+    // SAFETY: neither the benches nor the tests use zencan-node in a second thread.
     unsafe impl critical_section::Impl for OneThread {
         // Its type belongs to a feature, which another package may turn on.
         unsafe fn acquire() -> critical_section::RawRestoreState {

@@ -251,7 +251,8 @@ fn cross(context: &Context<'_>, what: &str, targets: &[&str], args: &[&str]) -> 
 
 /// The profile for tests is enough to check that they work.
 pub(super) fn bench(context: &Context<'_>) -> Result<()> {
-    let args = ["test", "--package", BENCHES, "--tests", "--benches"];
+    let what = ["--features", "peers", "--tests", "--benches"];
+    let args = [&["test", "--package", BENCHES][..], &what].concat();
     run(context, "benchmarks", &args)
 }
 
