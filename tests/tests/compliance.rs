@@ -176,19 +176,6 @@ impl Evidence {
         links.dedup();
         links
     }
-
-    /// As [`Evidence::of`], or the links of the nearest clause above that has any.
-    fn near(&self, place: &Place) -> Vec<&str> {
-        let mut place = place.clone();
-        loop {
-            let links = self.of(&place);
-            let Some((above, _)) = place.clause.rsplit_once('.').filter(|_| links.is_empty())
-            else {
-                return links;
-            };
-            place.clause = String::from(above);
-        }
-    }
 }
 
 /// Scripts by clause: the clauses in their first lines, the objects there, and those of their case.
@@ -399,10 +386,11 @@ fn page() -> (String, Vec<String>) {
             } else {
                 links(&shown)
             };
-            let near = code.near(&clause.place);
-            let code = match (clause.reason.is_empty(), near.is_empty()) {
-                (true, false) => links(&near),
-                (true, true) if document == "CiA 406" => String::from("a value of the dictionary"),
+            let own = code.of(&clause.place);
+            let object = clause.subject.split(' ').next().and_then(object);
+            let code = match (clause.reason.is_empty(), own.is_empty()) {
+                (true, false) => links(&own),
+                (true, true) if object.is_some() => String::from("a value of the dictionary"),
                 (true, true) if document.starts_with("CiA") => {
                     wrong.push(format!(
                         "{document}, {number}: the documentation of no code names it"

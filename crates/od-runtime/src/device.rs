@@ -36,7 +36,7 @@ pub trait Device: Services {
     type Values: Values;
     /// State of the services of a node of this device.
     type Rooms: Rooms;
-    /// The dictionary.
+    /// The dictionary; 1000h, 1001h and 1018h are mandatory (CiA 301, chapter 7.5.1).
     fn dictionary(&self) -> Dictionary<'_>;
     /// Options and deviations of the device family relative to CiA 301.
     #[inline]

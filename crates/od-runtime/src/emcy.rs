@@ -1,4 +1,4 @@
-//! EMCY producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
+//! EMCY producer and the error objects (CiA 301, chapter 7.2.7, objects 1001h, 1003h, 1014h and 1015h).
 
 use crate::blank::Blank;
 use crate::deadline::Deadline;

@@ -6,7 +6,7 @@ use od_model::Missing;
 
 macro_rules! abort_codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
-        /// SDO abort code (CiA 301, table 22), stored as its position in [`ALL`](Self::ALL);
+        /// SDO abort code (CiA 301, chapter 7.2.4.3.17), stored as its position in [`ALL`](Self::ALL);
         /// [`code`](Self::code) returns the value on the bus.
         ///
         /// ```

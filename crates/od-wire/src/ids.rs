@@ -139,8 +139,8 @@ impl CobId {
         self.0 & 1 << 29 != 0 || self.0 & 0x1FFF_F800 == 0
     }
 
-    /// Returns whether CiA 301 reserves the CAN-ID for NMT, SDO, error control or LSS
-    /// ([`od_model::is_restricted`]). It reserves no CAN-ID of 29 bits.
+    /// Returns whether the CAN-ID is restricted (CiA 301, chapter 7.3.5): it belongs to NMT, SDO, error control or LSS
+    /// ([`od_model::is_restricted`]). No CAN-ID of 29 bits is restricted.
     pub const fn is_restricted(self) -> bool {
         match self.can_id().as_standard() {
             Some(id) => od_model::is_restricted(id as u32),

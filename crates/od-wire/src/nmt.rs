@@ -39,7 +39,7 @@ impl Command {
     }
 }
 
-/// The states of an NMT slave; the number is the one in a heartbeat.
+/// The states of an NMT slave (CiA 301, chapter 7.3.2.1); the number is the one in a heartbeat.
 ///
 /// ```
 /// use od_wire::nmt::State;
@@ -54,7 +54,7 @@ pub enum State {
     Initialising = 0x00,
     /// Only NMT, error control and LSS.
     Stopped = 0x04,
-    /// All services, including PDOs (CiA 301, chapter 7.3.2).
+    /// All services, including PDOs.
     Operational = 0x05,
     /// All services except PDOs.
     PreOperational = 0x7F,

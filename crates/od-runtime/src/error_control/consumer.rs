@@ -1,4 +1,4 @@
-//! Heartbeat consumer (CiA 301, chapter 7.2.8.3.2.2; object 1016h).
+//! Heartbeat consumer (CiA 301, chapter 7.2.8.3.2.2, object 1016h).
 
 use crate::blank::Blank;
 use crate::deadline::Deadline;

@@ -1,4 +1,4 @@
-//! Node and life guarding (CiA 301, chapter 7.2.8.3.2.1; objects 100Ch and 100Dh).
+//! Node and life guarding (CiA 301, chapter 7.2.8.3.2.1, objects 100Ch and 100Dh).
 
 use crate::blank::Blank;
 use crate::deadline::Deadline;

@@ -1,6 +1,6 @@
 //! Selection of a slave: switch state selective, identification by ranges, fastscan.
 
-/// Steps that must arrive in order, and that each must match this slave.
+/// Steps that must arrive in order, and that each must match this slave (CiA 305, chapters 6.3.3 and 6.6.2).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sequence {
     next: u8,
@@ -33,7 +33,8 @@ pub(super) const fn part(step: u8) -> u8 {
     }
 }
 
-/// Returns whether this slave's number is within the limit of a step of identify remote slave.
+/// Returns whether this slave's number is within the limit of a step of identify remote slave (CiA 305, chapter
+/// 6.6.2).
 pub(super) const fn in_range(step: u8, value: u32, own: u32) -> bool {
     match step {
         0 | 1 => own == value,

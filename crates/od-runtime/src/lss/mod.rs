@@ -78,7 +78,8 @@ impl Slave {
         !self.configuration && self.node_id.is_some_and(|id| id != UNCONFIGURED)
     }
 
-    /// Handles a frame of the master. `active` is the active node ID; [`UNCONFIGURED`]: none.
+    /// Handles a frame of the master (CiA 305, chapters 6.3.2, 6.3.3, 6.4.2 to 6.4.5, 6.5.2, 6.5.3, 6.6.2, 6.6.4
+    /// and 6.7). `active` is the active node ID; [`UNCONFIGURED`]: none.
     pub(crate) fn handle<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -200,8 +201,8 @@ impl Slave {
         Action::Answer(answer)
     }
 
-    /// Writes the pending configuration to 2101h and 2100h, and saves only these two objects; the
-    /// next start uses them. FFh is not a node ID, so it is not stored.
+    /// Writes the pending configuration to 2101h and 2100h, and saves only these two objects (CiA 305, chapter
+    /// 6.4.5); the next start uses them. FFh is not a node ID, so it is not stored.
     fn store<D: Services>(&mut self, objects: &mut Objects<'_, D>, profile: &LssProfile) -> u8 {
         let pending = [
             (
@@ -231,8 +232,8 @@ impl Slave {
         ))
     }
 
-    /// Writes the pending configuration into the image, in records without an object; the next
-    /// start uses it. A node ID of FFh is stored as FFh.
+    /// Writes the pending configuration into the image, in records without an object (CiA 305, chapter 6.4.5);
+    /// the next start uses it. A node ID of FFh is stored as FFh.
     fn store_own<D: Services>(&mut self, objects: &mut Objects<'_, D>, active: u8) -> u8 {
         objects.complete_save();
         let (device, profile) = (objects.device(), &objects.profile.store);
@@ -257,7 +258,7 @@ fn code(saved: Result<(), StorageError>) -> u8 {
     }
 }
 
-/// Number of the LSS address (1018h) at a position, from 0; 0 if the sub-object is missing.
+/// Number of the LSS address (CiA 301, object 1018h) at a position, from 0; 0 if the sub-object is missing.
 fn number<D: Services>(objects: &Objects<'_, D>, part: u8) -> u32 {
     objects.store.word(0x1018, part.wrapping_add(1), 0)
 }

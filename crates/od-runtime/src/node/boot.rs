@@ -68,8 +68,8 @@ impl<D: Device, A, S> Node<D, A, S> {
 }
 
 impl<D: Device> Machines<D> {
-    /// Carries out a reset: stops all services, loads the values, and boots up, at once or after the time that the
-    /// profile says.
+    /// Carries out a reset (CiA 301, chapter 7.3.2.2.1): stops all services, loads the values, and boots up, at once
+    /// or after the time that the profile says.
     pub(super) fn reset(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let nmt = &objects.profile.nmt;
         let delay = match reset {

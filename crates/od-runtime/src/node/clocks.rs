@@ -98,8 +98,8 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// CAN-ID of the TIME messages that the node produces: that of 1012h, if bit 30 is set and neither
-/// SYNC nor EMCY has the same CAN-ID.
+/// CAN-ID of the TIME messages that the node produces (CiA 301, chapter 7.2.6, object 1012h): that of 1012h, if
+/// bit 30 is set and neither SYNC nor EMCY has the same CAN-ID.
 pub(super) fn produced_time_id(store: &Store<'_>) -> Option<CanId> {
     let cob_id = CobId::new(store.try_word(0x1012, 0)?);
     let id = cob_id.usable_id().filter(|_| cob_id.produces_time())?;

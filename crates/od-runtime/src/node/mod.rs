@@ -389,8 +389,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Enters an NMT state: informs host and application, and starts or stops the services that work in this state
-    /// only.
+    /// Enters an NMT state (CiA 301, chapters 7.3.2.1 and 7.3.2.2.2 to 7.3.2.2.4): informs host and application, and
+    /// starts or stops the services that work in this state only.
     fn enter(&mut self, objects: &mut Objects<'_, D>, state: State) {
         if self.state == state {
             return;
