@@ -3,7 +3,7 @@
 
 use od_devices::DEVICES;
 use od_model::Entry;
-use od_runtime::{CanId, Frame, NodeId};
+use od_runtime::{BusEvent, CanId, Frame, NodeId};
 use od_sim::{EdsOptions, VirtualDevice};
 
 /// Bytes of one step.
@@ -60,6 +60,10 @@ pub(super) enum Act {
     Switches(u8, u8),
     /// One of the faults, by number.
     Fault(usize, bool),
+    /// Power goes off when this many more bytes are written to the EEPROM.
+    Cut(usize),
+    /// The CAN controller reports a change.
+    Controller(BusEvent),
 }
 
 /// The action that these ten bytes encode; the entries are those of its dictionary.
@@ -148,6 +152,14 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
         37 => Act::Fault(usize::from(b), a % 3 == 0),
         38 if a % 2 == 0 => Act::Position(u64::from(number)),
         38 => Act::Turn(f64::from(number as i32) / 65536.0),
+        _ if a < 32 => Act::Cut(usize::from(b) * 4),
+        _ if a < 96 => Act::Controller(match b % 6 {
+            0 => BusEvent::Warning,
+            1 => BusEvent::Passive,
+            2 => BusEvent::Off,
+            3 => BusEvent::Overrun,
+            _ => BusEvent::Active,
+        }),
         _ => Act::Rpm(f64::from(number as i32) / 100_000.0),
     }
 }

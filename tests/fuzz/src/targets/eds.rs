@@ -1,7 +1,7 @@
 //! EDS and DCF text: any text is read, a written text reads the same, and its valid part runs
 //! as a device.
 
-use od_eds::{Description, Finding, Tables};
+use od_eds::{Description, Document, Eds, Finding, Parsed, Tables, check, say};
 use od_runtime::{Frame, Instant};
 use od_sim::{Bus, EdsOptions, VirtualDevice};
 
@@ -9,7 +9,8 @@ use crate::files::files;
 use crate::sent::owner;
 use crate::target::Target;
 
-pub(super) const TARGET: Target = Target {
+/// The target.
+pub const TARGET: Target = Target {
     name: "eds",
     run,
     seeds,
@@ -22,7 +23,12 @@ pub(super) const TARGET: Target = Target {
 /// EDS and DCF files of the project.
 pub(super) fn seeds() -> Vec<Vec<u8>> {
     let mut seeds = files("tests/cases", &["input.eds", "input.dcf"], 16_384);
-    for folder in ["tests/eds", "tests/interop", "crates/od-eds/cases"] {
+    for folder in [
+        "tests/eds",
+        "tests/interop",
+        "tests/corpus",
+        "crates/od-eds/cases",
+    ] {
         seeds.extend(files(folder, &[".eds", ".dcf"], 16_384));
     }
     assert!(seeds.len() > 10, "where are the cases?");
@@ -75,20 +81,14 @@ pub(super) const WORDS: &[&str] = &[
 ];
 
 fn run(input: &[u8]) {
-    let text = od_eds::decode(input);
-    let parsed = od_eds::load(&text);
-    written_again(&parsed.description);
-    let tables = Tables::new(&parsed.description);
-    let dictionary = tables.dictionary();
-    for entry in dictionary.entries() {
-        assert_eq!(dictionary.find(entry.address), Ok(entry));
-    }
-    said(&parsed.findings);
+    let document = Document::new(input);
+    read_again(&document);
+    let text = document.text();
     let options = EdsOptions {
         lenient: true,
         ..EdsOptions::default()
     };
-    let Ok(device) = VirtualDevice::from_eds(&text, options) else {
+    let Ok(device) = VirtualDevice::from_eds(text, options) else {
         return;
     };
     let mut bus = Bus::new();
@@ -122,16 +122,44 @@ fn run(input: &[u8]) {
     bus.with(number, VirtualDevice::power_off);
 }
 
-/// A written description reads the same, and is written the same again.
+/// Reads a text, and checks what holds for each text.
+///
+/// # Panics
+/// If a property does not hold.
+pub fn read_again(document: &Document) -> Parsed {
+    let loaded = document.load();
+    let mut unedited = document.clone();
+    assert!(unedited.apply(&[]).is_ok());
+    assert!(unedited == *document, "an unedited document differs");
+    written_again(&loaded.description);
+    let tables = Tables::new(&loaded.description);
+    let dictionary = tables.dictionary();
+    for entry in dictionary.entries() {
+        assert_eq!(dictionary.find(entry.address), Ok(entry));
+    }
+    said(&loaded.findings, document.text());
+    loaded
+}
+
+/// A written description reads the same, and each form of it is written the same again.
 pub(super) fn written_again(description: &Description) {
     let written = od_eds::write(description);
     let again = od_eds::parse(&written).description;
     same(description, &again, &written);
-    let twice = od_eds::write(&again);
+    let mut rest = description.clone();
+    rest.objects.clone_from(&again.objects);
     assert!(
-        twice == written,
-        "written again, the text differs:\n{written}\n{twice}"
+        rest == again,
+        "not only objects differ: {rest:#?} is now {again:#?} in\n{written}"
     );
+    for write in [od_eds::write, od_eds::canonical] {
+        let once = write(&again);
+        let twice = write(&od_eds::parse(&once).description);
+        assert!(
+            twice == once,
+            "written again, the text differs:\n{once}\n{twice}"
+        );
+    }
 }
 
 /// Like [`same`], without values that could not be parsed and stayed text.
@@ -170,9 +198,26 @@ pub(super) fn same(before: &Description, after: &Description, written: &str) {
     );
 }
 
-/// Every finding has a message.
-pub(super) fn said(findings: &[Finding]) {
+/// Every finding belongs to a rule, has a message and a help, and is at a place of the text; they are in the
+/// order of the text.
+pub(super) fn said(findings: &[Finding], text: &str) {
+    let mut last = 0;
     for finding in findings {
-        assert!(!od_eds::say(finding, &od_eds::Eds).message.is_empty());
+        let finding = say(finding, &Eds);
+        let code = finding.code;
+        assert!(check::rule(code).is_some(), "{code} is not a rule");
+        assert!(
+            !finding.message.is_empty() && !finding.help.is_empty(),
+            "{code}"
+        );
+        let labels = finding.labels.iter().map(|label| label.span);
+        for span in finding.span.into_iter().chain(labels) {
+            let range = span.start as usize..span.end as usize;
+            let is_valid = text.get(range).is_some() && span.line > 0 && span.column > 0;
+            assert!(is_valid, "{code} is outside the text: {span:?}");
+        }
+        let line = finding.span.map_or(u32::MAX, |span| span.line);
+        assert!(last <= line, "{code} is not in the order of the text");
+        last = line;
     }
 }

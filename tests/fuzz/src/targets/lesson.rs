@@ -64,7 +64,7 @@ fn run(input: &[u8]) {
     let lesson = match Lesson::parse(&text) {
         Ok(lesson) => lesson,
         Err(problems) => {
-            assert!(!problems.is_empty(), "refused, and nobody says why");
+            assert!(!problems.is_empty(), "refused without a reason");
             for problem in problems {
                 assert!((1..=lines).contains(&problem.line), "{problem}");
             }

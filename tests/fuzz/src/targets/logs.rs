@@ -123,7 +123,7 @@ fn run(input: &[u8]) {
     let log = match read(input) {
         Ok(log) => log,
         Err(why) => {
-            assert!(!why.to_string().is_empty(), "refused, and nobody says why");
+            assert!(!why.to_string().is_empty(), "refused without a reason");
             return;
         }
     };

@@ -4,7 +4,7 @@ mod bench;
 mod candump;
 mod cob_ids;
 mod console;
-mod eds;
+pub mod eds;
 mod eeprom;
 mod fix;
 mod lesson;

@@ -1,7 +1,8 @@
-//! A whole device: frames, time, power, shaft, switches and faults in any order. It never
-//! panics, never floods the bus, sends nothing in Stopped that is not allowed, and works again after it
-//! was repaired and power-cycled.
+//! A whole device: frames, time, power, shaft, switches, faults and events of the CAN controller in any order.
+//! It never panics, never floods the bus, sends nothing in Stopped that is not allowed, has no value outside its
+//! limits, and works again after it was repaired and power-cycled.
 
+use od_model::{Entry, Kind};
 use od_runtime::{Frame, Instant};
 use od_sim::{Bus, VirtualDevice};
 use od_wire::nmt::State;
@@ -37,7 +38,9 @@ fn run(input: &[u8]) {
     let faults: Vec<&str> = device.faults();
     let mut bus = play(input, device);
     for entry in entries {
-        bus.with(0, |device, now| device.read(entry.address, now));
+        let value = bus.with(0, |device, now| device.read(entry.address, now));
+        let node = bus.devices()[0].node_id().raw();
+        within_limits(&entry, &value.unwrap_or_default(), node);
     }
     recovers(&mut bus, &faults);
 }
@@ -81,6 +84,10 @@ pub fn play(input: &[u8], device: VirtualDevice) -> Bus {
                     bus.with(0, |device, now| device.set_fault(name, broken, now));
                 }
             }
+            Act::Cut(bytes) => drop(bus.with(0, |device, _| device.cut_power_after(bytes))),
+            Act::Controller(event) => {
+                bus.with(0, |device, now| device.handle_bus(event, now));
+            }
         }
         // Frames caused by inputs of the application are not the response to the next frame.
         quiet(&mut bus, None, before);
@@ -89,6 +96,32 @@ pub fn play(input: &[u8], device: VirtualDevice) -> Bus {
         let _ = (device.leds(), device.shaft(bus.now()), device.bit_rate());
     }
     bus
+}
+
+/// An integer that a master may write is within its limits.
+fn within_limits(entry: &Entry, value: &[u8], node: u8) {
+    let is_integer = matches!(entry.data_type.kind(), Kind::Unsigned | Kind::Signed);
+    let Some(unused) = 8_u32.checked_sub(value.len() as u32).map(|bytes| 8 * bytes) else {
+        return;
+    };
+    if !is_integer || !entry.access.writable() || value.is_empty() {
+        return;
+    }
+    let number = value
+        .iter()
+        .rev()
+        .fold(0, |number, byte| number << 8 | u64::from(*byte));
+    let number = match entry.data_type.kind() {
+        Kind::Signed => i128::from((number << unused) as i64 >> unused),
+        _ => i128::from(number),
+    };
+    let low = entry.low.integer(node).unwrap_or(i128::MIN);
+    let high = entry.high.integer(node).unwrap_or(i128::MAX);
+    assert!(
+        (low..=high).contains(&number),
+        "{} is {number}",
+        entry.address
+    );
 }
 
 /// One frame or input is followed by a few frames; in Stopped by

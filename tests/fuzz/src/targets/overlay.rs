@@ -69,7 +69,7 @@ fn run(input: &[u8]) {
     let made = match od_eds::overlay(base, over) {
         Ok(made) => made,
         Err(faults) => {
-            assert!(!faults.is_empty(), "refused, and nobody says why");
+            assert!(!faults.is_empty(), "refused without a reason");
             for (line, fault) in faults {
                 let is_there = (1..=lines(over)).contains(&line);
                 assert!(is_there && !fault.is_empty(), "line {line}: {fault}");
@@ -78,7 +78,7 @@ fn run(input: &[u8]) {
         }
     };
     let parsed = od_eds::load(&made.text);
-    eds::said(&parsed.findings);
+    eds::said(&parsed.findings, &made.text);
     for finding in parsed.findings {
         let code = finding.code();
         let (origin, finding) = made.place(finding);

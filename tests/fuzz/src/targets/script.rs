@@ -103,7 +103,7 @@ fn run(input: &[u8]) {
         Ok(script) => script,
         Err(problems) => {
             let lines: Vec<&str> = text.lines().collect();
-            assert!(!problems.is_empty(), "refused, and nobody says why");
+            assert!(!problems.is_empty(), "refused without a reason");
             for problem in problems {
                 let line = lines
                     .get(problem.line as usize - 1)

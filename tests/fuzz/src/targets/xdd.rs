@@ -62,7 +62,7 @@ pub(super) const TARGET: Target = Target {
 fn run(input: &[u8]) {
     let text = od_eds::decode(input);
     let parsed = od_eds::load(&text);
-    said(&parsed.findings);
+    said(&parsed.findings, &text);
     fix::run(input);
     let tables = Tables::new(&parsed.description);
     for entry in tables.dictionary().entries() {
