@@ -132,7 +132,7 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
         .iter()
         .map(|item| (item.index, item))
         .collect();
-    // A handle is a constant and a module with its address, so one name is not of a handle and of an object's module.
+    // A handle is a constant and a module with its address, so no object's module may have the name of a handle.
     let mut taken = naming.modules.clone();
     taken.extend(CONSTANTS.map(String::from));
     for modules in [false, true] {
@@ -246,7 +246,7 @@ fn assign(
                 want.target
             )),
             (None, true) => Some(format!(
-                "`{name}` is what the module itself has\nhelp: choose another name for {}",
+                "the module itself defines `{name}`\nhelp: choose another name for {}",
                 want.target
             )),
             (None, false) => miswritten(&name, want.target, modules),
@@ -268,17 +268,22 @@ fn miswritten(name: &str, target: Target, modules: bool) -> Option<String> {
         ));
     }
     let (right, what) = if modules {
-        (name.to_ascii_lowercase(), "a RECORD or ARRAY, a module")
-    } else if target.sub.is_some() {
-        (name.to_ascii_uppercase(), "a member, a constant")
-    } else {
-        (name.to_ascii_uppercase(), "a VAR, a constant")
-    };
-    (right != name).then(|| {
-        format!(
-            "{target} is {what}: its name is written like one\nhelp: `rename {target} = {right};`"
+        (
+            name.to_ascii_lowercase(),
+            "a RECORD or ARRAY and becomes a module; write its name in lower case",
         )
-    })
+    } else if target.sub.is_some() {
+        (
+            name.to_ascii_uppercase(),
+            "a sub-object and becomes a constant; write its name in capitals",
+        )
+    } else {
+        (
+            name.to_ascii_uppercase(),
+            "a VAR and becomes a constant; write its name in capitals",
+        )
+    };
+    (right != name).then(|| format!("{target} is {what}\nhelp: `rename {target} = {right};`"))
 }
 
 /// Reports each `rename` of an object that does not exist.

@@ -292,7 +292,7 @@ impl Input {
                     return Ok(());
                 }
                 if OWN.contains(&&*name.to_string()) {
-                    let message = format!("`{name}` is what the module itself has\nhelp: {help}");
+                    let message = format!("the module itself defines `{name}`\nhelp: {help}");
                     report.at(name.span(), message);
                     return Ok(());
                 }

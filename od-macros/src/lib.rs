@@ -88,8 +88,8 @@
 //! `identity_object`. Characters other than letters and digits separate words. **Names that
 //! repeat all get their index or sub-index as a suffix**: `RESERVED_2110`, `RESERVED_2111`
 //! or `RESERVED_05`. `rename` gives better names; two renames to the same name are an
-//! error. A name that a variant or the module itself has gets its index too. The documentation of every item gives index, type,
-//! access, default, limits and its place in the EDS.
+//! error. A name that is also that of a variant or of an item of the module gets its index, too.
+//! The documentation of every item gives index, type, access, default, limits and its place in the EDS.
 //!
 //! An application that gets an address compares it with a handle, `address == thermometer::TEMPERATURE`. In a pattern it
 //! is a constant beside the handle: `match address { thermometer::TEMPERATURE::ADDRESS => … }`.

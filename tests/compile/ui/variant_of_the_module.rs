@@ -1,4 +1,4 @@
-//! Variants with the names of what the module itself has.
+//! Variants with names that the module itself defines.
 
 use odkit::object_dictionary;
 
