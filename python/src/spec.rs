@@ -83,7 +83,7 @@ pub(crate) fn add(
     }
     if added.is_empty() {
         let why = format!(
-            "`{list}` names no device; write such as `gxmm@1`, or `Bench()` for a bus without devices"
+            "`{list}` names no device; write for example `gxmm@1`, or `Bench()` for a bus without devices"
         );
         return Err(Fault::value(why));
     }

@@ -62,7 +62,7 @@ def test_what_is_wrong_with_a_file(tmp_path):
     with pytest.raises(ValueError, match=r"wrong.eds: line 5: E0412 DefaultValue `300`"):
         odkit.Bench(wrong)
     for nothing in ("", " , ", ["gxmm@1", ""]):
-        with pytest.raises(ValueError, match="names no device; write such as `gxmm@1`"):
+        with pytest.raises(ValueError, match="names no device; write for example `gxmm@1`"):
             odkit.Bench(nothing)
     with pytest.raises(ValueError, match="no built-in device or file is named `none.eds`"):
         odkit.Bench("none.eds")
@@ -284,7 +284,7 @@ def test_everything_says_what_it_is(bench):
 
 
 def python(program, *arguments):
-    """A program in a process of its own, which ends by itself."""
+    """Runs a program in a process of its own until it ends."""
     return subprocess.run([sys.executable, "-c", textwrap.dedent(program), *arguments], capture_output=True, text=True, timeout=200)
 
 

@@ -34,7 +34,7 @@ from test.util import SAMPLE_EDS
 
 
 def description():
-    """The EDS of the tests as a sound device: what is mapped exists, the device may change its name."""
+    """The EDS of these tests without its errors: no mapping of missing objects, and a name that the device may change."""
     base = odkit.read(SAMPLE_EDS)
     change = {0x1008: "[1008]\nAccessType=ro\n"}
     for one in base.errors:
@@ -44,7 +44,7 @@ def description():
 
 
 class Value:
-    """A value as a local node of python-canopen has it."""
+    """A value with the attributes of one in a local node of python-canopen."""
 
     def __init__(self, device, index, sub=0):
         self.device, self.address = device, (index, sub)
@@ -126,7 +126,7 @@ class Pdo(OnBench, test_local.TestPDO):
 
 @pytest.fixture(scope="module")
 def source(tmp_path_factory):
-    """The source package of python-canopen, which alone has the tests; it is fetched."""
+    """The source package of python-canopen, downloaded: the wheel lacks the tests."""
     folder = tmp_path_factory.mktemp("canopen")
     fetch = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--no-binary", "canopen"]
     subprocess.run([*fetch, f"canopen=={canopen.__version__}"], cwd=folder, check=True)
@@ -139,7 +139,7 @@ def source(tmp_path_factory):
 
 
 def run(folder, *what):
-    """Runs tests; those that fail again, twice at most, as some of them wait 10 ms by the clock."""
+    """Runs tests. Those that fail run again, at most twice: some of them wait 10 ms of real time."""
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:threadexception", *what]
     for again in ([], ["--last-failed"], ["--last-failed"]):
         done = subprocess.run([*command, *again], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

@@ -29,7 +29,7 @@ def dictionary():
 
 @pytest.fixture
 def connected(dictionary):
-    """A network and its node; the wire is closed whatever happens, since the next test has one of this name."""
+    """A network and its node. The wire is closed even if the test fails, because the next test has a wire of this name."""
     network = canopen.Network()
     network.connect(interface="odkit", channel="gxmm@1")
     yield network, network.add_node(1, dictionary)
@@ -65,7 +65,7 @@ def test_no_time_passes_while_the_program_computes(connected):
 
 def test_time_follows_the_clock_while_the_program_sleeps(connected):
     network, node = connected
-    # Time follows from the last call, however long the program is held up after it.
+    # The time depends on the last call only, not on how long the program waits after it.
     clock = time.perf_counter()
     node.sdo[0x1017].raw = 10
     before = network.bus.bench.now
@@ -98,7 +98,7 @@ def test_a_wait_lets_no_more_time_pass_than_its_time_out():
 
 
 def test_a_listener_that_answers_is_part_of_the_run():
-    """Time does not go on while a listener works, so its answer has the time of the question."""
+    """Time does not pass while a listener works, so its answer has the time of the question."""
     with odkit.Bench("gxmm@1") as bench, bench.bus() as bus, bench.bus() as other:
         answers = []
 
@@ -291,7 +291,7 @@ def test_asyncio_at_full_speed(odkit_bench, odkit_time):
 
 
 def test_a_thread_computes_beside_others():
-    """Time stands still, with the interpreter's lock and without it."""
+    """No time passes, with the interpreter's lock and without it."""
     for burn in (lambda: sum(range(1000)), lambda: hashlib.pbkdf2_hmac("sha1", b"a", b"b", 2000)):
         with odkit.Bench("gxmm@1") as bench:
             bus, reader, _ = notified(bench)
@@ -333,7 +333,7 @@ for wait in (threading.Event().wait, lambda: bench.run(1e12), lambda: threading.
 
 
 def test_a_clock_goes_on_from_the_time_of_the_last_bench(monkeypatch):
-    """Not from where the clock of the computer is: an event loop would stand still for hours."""
+    """It does not start at the time of the computer: an event loop would then wait for hours."""
     moment, real = None, 0
     monkeypatch.setattr(_odkit, "moment", lambda: moment)
     clock = _waits.Clock(lambda: real)

@@ -6,7 +6,7 @@ import { checks } from './check.mjs';
 
 const check = checks();
 
-check('a fault case is solved with a probe, and a guess is told from a proof', async (page) => {
+check('a fault case is solved with a probe, and a guess and a proof are distinguished', async (page) => {
   await page.getByRole('button', { name: 'Learn' }).click();
   await page.getByRole('button', { name: 'Fault cases' }).click();
   const cases = page.locator('od-fault-cases');

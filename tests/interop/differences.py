@@ -1,7 +1,7 @@
 """Every value of a folder of device files, as odkit and as python-canopen read it.
 
     python differences.py DIR            the kinds of differences, with a count and an example
-    python differences.py DIR --docs     docs/DIFFERENCES.md, made anew
+    python differences.py DIR --docs     docs/DIFFERENCES.md, generated
 
 Each difference belongs to a kind in KINDS, which says who is right and why; one that
 belongs to none fails the test in test_differences.py.

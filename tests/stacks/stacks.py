@@ -142,7 +142,7 @@ def lely(folder):
     flags = [f"-I{stack / 'include'}", "-D_GNU_SOURCE", "-DNDEBUG", "-DLELY_NO_CANFD=1", "-DLELY_NO_CXX=1", "-pthread"]
     program = compiled(folder / "lely-slave", [HERE / "lely.c", *files], flags)
     eds = folder / "lely.eds"
-    # Without 1F80h it starts by itself.
+    # Without 1F80h it enters Operational without a command.
     text = (ROOT / "firmware/eds/ds301.eds").read_text()
     text = re.sub(r"(?m)^33=.*$", r"\g<0>\n34=0x1F80", text.replace("SupportedObjects=33", "SupportedObjects=34"), count=1)
     eds.write_text(text + STARTUP)

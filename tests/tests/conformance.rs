@@ -73,7 +73,7 @@ fn check(path: &Path, text: &str) -> Result<String, String> {
             }
             Ok(traces)
         }
-        _ => Err("the script has either a `device` line or a `# Devices:` line".into()),
+        _ => Err("the script needs a `device` line or a `# Devices:` line, not both".into()),
     }
 }
 

@@ -123,7 +123,7 @@ fn cia() -> String {
         assert_eq!(
             there.is_empty(),
             !case.reason.is_empty(),
-            "case {} has either scripts or a reason",
+            "case {} needs scripts or a reason, not both",
             case.number
         );
         shown += usize::from(!there.is_empty());

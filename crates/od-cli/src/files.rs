@@ -22,7 +22,7 @@ fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
 /// Reads an input.
 ///
 /// # Errors
-/// The error of the system, or the run writes this file.
+/// The file cannot be read, or the run has written it.
 pub(crate) fn read(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
     let path = path.as_ref();
     let bytes = fs::read(path)?;

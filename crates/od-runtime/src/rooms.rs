@@ -46,7 +46,7 @@ pub trait Values: Debug + Send {
 pub struct Lent<'v> {
     /// The current values.
     pub bytes: &'v mut [u8],
-    /// Work that a call leaves for its end.
+    /// Work that a call postpones to its end.
     pub outbox: &'v mut Outbox,
     /// The save in progress; `None`: the device has no 1010h.
     pub saving: Option<&'v mut Saving>,

@@ -48,7 +48,7 @@ mod status {
 /// Deceleration of a shaft without torque, in units per second².
 const FRICTION: i64 = 100_000;
 
-/// The world around an axis.
+/// Inputs of an axis that do not come from the bus.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct World {
     /// The negative limit switch is active.

@@ -10,7 +10,7 @@ export async function copyText(text: string): Promise<boolean> {
   }
 }
 
-/** The old way, which works without a secure context: it copies a selection. A field outside of an open dialog cannot have one. */
+/** Copies a selection, which needs no secure context. A field outside of an open dialog cannot be selected. */
 function copyOld(text: string): boolean {
   const before = document.activeElement;
   const home = [...document.querySelectorAll('dialog[open]')].at(-1) ?? document.body;

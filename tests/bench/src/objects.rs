@@ -91,9 +91,8 @@ pub fn mapped(size: usize) -> u16 {
 }
 
 /// A fixed pseudo-random sequence (a 64-bit LCG, upper half used).
-/// It is drawn during the measurement, not before: the branch predictor would learn a
-/// repeated table of requests, and the lookup would not be measured.
-/// soon known to the branch predictor, and the lookup is then not measured.
+/// It is computed during the measurement: the branch predictor would learn a table of requests that
+/// repeats, and the lookup would not be measured.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 

@@ -86,7 +86,7 @@ fn words(line: &str) -> Vec<&str> {
         .collect()
 }
 
-/// The text without `ESC [ ... m`: trybuild colours its lines, terminal or not.
+/// The text without `ESC [ ... m`: trybuild colours its lines even without a terminal.
 fn without_colours(text: &str) -> String {
     let mut parts = text.split('\u{1b}');
     let mut plain = String::from(parts.next().unwrap_or_default());

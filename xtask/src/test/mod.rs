@@ -22,8 +22,8 @@ use report::{Outcome, Report};
 use stages::{Kind, Lane, STAGES, Stage};
 
 /// Time without output after which a program of a stage is stopped, because it hangs; with `--long`, four times as long. The
-/// whole time of a program has no limit: a cold build on a slow computer takes long, but it names each crate, and a test its
-/// result. The longest silence on two cores is 2 minutes, while a module is linked with LTO.
+/// whole time of a program has no limit: a cold build on a slow computer takes long, but it prints each crate, and a test
+/// program prints each result. The longest silence on two cores is 2 minutes, while a module is linked with LTO.
 const LIMIT: Duration = Duration::from_secs(12 * 60);
 
 /// The command line of `test`.

@@ -45,7 +45,7 @@ impl Yaml {
     /// Reads the first document of a text.
     ///
     /// # Errors
-    /// The text is not YAML, or too large; in words, with its line.
+    /// A sentence with the line, if the text is not YAML or is too large.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let mut tree = Tree::default();
         let mut places = Places::new(text);
@@ -55,7 +55,7 @@ impl Yaml {
             let from = places.byte(start.index());
             let span = Span {
                 start: from,
-                // The end of a block is behind the begin of the next value.
+                // The parser puts the end of a block at the beginning of the next value.
                 end: match event {
                     Event::Scalar(..) => places.byte(end.index()),
                     _ => from,
@@ -157,7 +157,7 @@ impl Yaml {
     }
 }
 
-/// Bytes of characters that are asked for in the order of the text.
+/// Converts places in characters into places in bytes. The places must come in the order of the text.
 struct Places<'a> {
     text: &'a str,
     chars: usize,
@@ -286,7 +286,7 @@ fn map(values: Vec<Yaml>) -> Result<Value, String> {
     Ok(Value::Map(entries.all))
 }
 
-/// The entries of a mapping, with the place of each key, so that a long mapping takes no longer for an entry.
+/// The entries of a mapping, and the place of each key: an entry is found in the same time in a long mapping.
 #[derive(Default)]
 struct Entries {
     all: Vec<(Yaml, Yaml)>,

@@ -24,7 +24,7 @@ pub(super) fn check(folder: &Path) -> Result<(), Failure> {
 /// Writes files by their paths below `folder`, and makes the folders that they need.
 ///
 /// # Errors
-/// The error of the system; nothing of the folder is left then.
+/// A file or folder cannot be written; those that were created are removed.
 pub(super) fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Failure> {
     let mut made = Made(Vec::new());
     for (path, content) in files {

@@ -162,7 +162,7 @@ fn each_change_is_listed_with_old_and_new_and_leaves_nothing_wrong() {
         &member("1A00sub2", "Second", 7, "0x60610008"),
         &member("1A00sub3", "Third", 7, "0x20000008"),
         "[2000]\nParameterName=Opening\nDataType=5\nAccessType=ro\nPDOMapping=1\n",
-        // A count that is no UNSIGNED8, and a value of a wrong type with a limit that is right.
+        // A count that is not a valid UNSIGNED8, and a value of a wrong type with a limit that is right.
         "[2001]\nParameterName=Speeds\nObjectType=8\nSubNumber=2\n",
         &member("2001sub0", "Count", 0x15, "1"),
         &member("2001sub1", "Speed", 6, "7"),

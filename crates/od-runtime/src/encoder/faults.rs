@@ -11,8 +11,8 @@ use od_wire::emcy::Emcy;
 const ALARMS: Address = Address::new(0x6503, 0);
 const WARNINGS: Address = Address::new(0x6505, 0);
 
-/// Bit of the row [`EncoderProfile::NO_ANGLE`], and a bit beside those of faults: the sensor does
-/// not deliver the angle, and the family has no alarm for the reason.
+/// The sensor does not deliver the angle, and the family has no alarm for the reason. The bit stands for the
+/// row [`EncoderProfile::NO_ANGLE`] in a set of rows, and for no fault in a set of faults.
 const NO_ANGLE: u32 = 1 << 31;
 
 /// Returns bytes 3 to 7 of an EMCY message: 6503h, 6505h, and 0 (manual 000, 4.3.5).

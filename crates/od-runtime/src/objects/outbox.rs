@@ -1,4 +1,4 @@
-//! Work that a call leaves for its end.
+//! Work that a call postpones to its end.
 
 use od_model::Address;
 
@@ -50,7 +50,7 @@ pub(super) const fn live_bit(address: Address) -> u32 {
 }
 
 impl<Q> Outbox<Q> {
-    /// An empty one; `room` is the content of empty places.
+    /// An outbox without effects; `room` is the content of empty places.
     pub const fn new(room: Q) -> Self {
         Self {
             effects: Fifo::new([Effect::Written { index: 0, sub: 0 }; 8]),

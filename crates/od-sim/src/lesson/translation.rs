@@ -48,7 +48,7 @@ pub fn translate(original: &str, translation: &str) -> Result<String, Vec<Proble
     }
 }
 
-/// Returns whether a text is a translation, which is no lesson without its original: it names its language and nothing else that
+/// Returns whether a text is a translation, which is not a lesson without its original: it names its language and nothing else that
 /// a translation does not have, and it has no set-up and no solution.
 pub fn is_translation(text: &str) -> bool {
     let (front, sections) = split(text);

@@ -44,11 +44,11 @@ pub(crate) struct Station {
 pub(super) struct Attempt {
     /// Reason of the failure; `None` if the frame will get through.
     pub(super) trouble: Option<FrameError>,
-    /// Whether the receivers take the frame. Those behind a line that is too long do, although its sender repeats it.
+    /// Whether the receivers take the frame. On a line that is too long they do, although the sender repeats it.
     pub(super) received: bool,
     /// Bits until the line is free for the intermission.
     pub(super) bits: u64,
-    /// Stations whose frame was another one, and that could not stop the frame: they are error passive.
+    /// Error passive stations that sent another frame and could not stop this one.
     pub(super) beaten: Vec<usize>,
 }
 

@@ -15,7 +15,7 @@ fn without_a_dictionary_a_glob_finds_the_same_objects() {
     for glob in ["60*", "1018:*", "0x10??", "1a00h:?1", "180?:*"] {
         let known = select(dictionary, glob).expect(glob);
         let known = known.iter().map(|one| one.address);
-        // The error history is as long as its number of errors.
+        // 1003h has as many sub-objects as there are errors.
         let known = known.filter(|address| address.index != 0x1003 || address.sub == 0);
         let known: Vec<_> = known.collect();
         let probed = probe(&mut master, glob).expect(glob);

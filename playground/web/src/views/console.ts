@@ -40,7 +40,7 @@ class Console extends View {
     effect(() => {
       if (state.chosenFrame.value !== null) load(() => import('./frame-detail'));
     });
-    // So is what to do after bus-off, of this page or of a node.
+    // The advice for bus-off is loaded when the page or a node is bus-off.
     effect(() => {
       if ([state.line.value, ...state.statuses.value].some((one) => one?.controller === 'bus-off')) load(() => import('../seeing/bus-off'));
     });

@@ -97,7 +97,7 @@ class Hardware extends View {
   }
 }
 
-/** A controller: its state, its counters, connected or not. */
+/** A controller: its state, its counters, and whether it is connected. */
 function counters(key: string, one: Pick<Status, 'controller' | 'transmitErrors' | 'receiveErrors' | 'plugged'>, station: number) {
   const tone = one.controller === 'bus-off' ? 'bad' : one.controller === 'error passive' ? 'amber' : 'good';
   return html`<div class="controller" data-controller=${key}>

@@ -111,7 +111,7 @@ impl Medium<'_> {
     /// Returns whether the surveyed banks need and allow a next set.
     pub(super) fn admits(&mut self, plan: &Plan<'_>) -> Result<bool, StorageError> {
         match (plan, self.banks.state) {
-            // The device itself does not write over the set of another device.
+            // Only a command of a master replaces the set of another device.
             (Plan::Save(0), Loaded::Foreign) => Err(StorageError::Foreign),
             (Plan::Restore(_), Loaded::Blank) => {
                 self.banks.next = Code::ERASED;
@@ -124,7 +124,7 @@ impl Medium<'_> {
 
     /// Marks the newest set when a save that replaces it begins.
     pub(super) fn mark(&mut self, profile: &StoreProfile, plan: &Plan<'_>) {
-        // An interrupted save of the device itself, or an interrupted restore, removes no values.
+        // A save that the device started, or a restore, removes no values when it is interrupted.
         // If the set is not valid any more, only a complete set ends this state.
         let cut = match plan {
             Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,

@@ -314,7 +314,7 @@ fn refuse_restricted(dut: &mut Dut<'_>, index: u16) -> Checked<bool> {
         return Ok(false);
     }
     let before = dut.keep(address)?;
-    // Neither a producer nor a consumer meanwhile.
+    // Flag bits that make the node neither a producer nor a consumer during the test.
     let flags = number(&before) as u32 & !(0xC000_0000 | 0x1FFF_FFFF);
     for id in RESTRICTED {
         let codes = [
