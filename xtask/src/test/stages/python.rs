@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::rust::{long, odkit};
-use crate::console::cargo;
 use crate::error::{Error, Result};
-use crate::packages::{CLI, PYTHON};
+use crate::packages::CLI;
 use crate::repo::program;
 use crate::setup::python;
 use crate::test::context::Context;
@@ -17,8 +16,7 @@ const INFO: &str = "odkit-0.1.0.dist-info";
 const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 
 /// The tests of the Python package, in the environment of the stage `interop`; a long run also installs the
-/// package with pip. The module has features of its own: with all features, defmt would give symbols
-/// names that no shared library can export.
+/// package with pip.
 pub(super) fn python(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let (python, site) = package(context)?;
@@ -44,10 +42,9 @@ pub(super) fn package(context: &Context<'_>) -> Result<(PathBuf, PathBuf)> {
     let (repo, console) = (context.repo, context.console);
     let requirements = repo.root.join("tests/interop/requirements.txt");
     let python = python::environment(repo, console, &requirements)?;
-    let mut build = cargo(&repo.root, &["build", "--package", PYTHON]);
-    console.run("building the module", &mut build)?;
+    let built = odkit(context)?;
     let site = repo.cache().join("python");
-    lay(&repo.root.join("python"), &site, &repo.target.join("debug"))?;
+    lay(&repo.root.join("python"), &site, &built)?;
     Ok((python, site))
 }
 

@@ -15,8 +15,20 @@ use crate::test::context::Context;
 /// All packages that are built for the host, except the benchmarks with their peers, and sources that another
 /// package also has. Always the same packages and features: another selection would need another build.
 #[rustfmt::skip]
-pub(super) const ALL: [&str; 8] =
+pub(super) const ALL: [&str; 9] =
+    ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--exclude", PAGE_CORE.0, "--features", FEATURES];
+
+/// All packages of [`ALL`] with every feature, for what generates no code.
+#[rustfmt::skip]
+const CHECKED: [&str; 8] =
     ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--exclude", PAGE_CORE.0, "--all-features"];
+
+/// Every feature that is not a default, except `defmt`: its formats give symbols names that no shared library can
+/// export, and the Python module is one.
+const FEATURES: &str = "\
+    od-board/embassy,od-board/flash,od-devices/std,od-devices/text,od-eds/explain,od-eds/json,od-eds/serde,\
+    od-eds/tools,od-eds/xdd,od-model/alloc,od-model/names,od-model/serde,od-runtime/std,od-sim/dbc,od-sim/eds,\
+    od-sim/lessons,od-sim/real,od-sim/serve,odkit/embassy,odkit/flash,odkit/names,odkit/std";
 
 /// Folders of packages whose tests are not in [`unit`].
 const OUTSIDE: [&str; 5] = ["tests", "tests/compile", "tests/bench", "python", "target"];
@@ -45,7 +57,7 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
     let packages: &[&str] = match (context.quick, context.long) {
         (true, _) => &["--all-features"],
         (_, true) => &["--workspace", "--all-features"],
-        _ => &ALL,
+        _ => &CHECKED,
     };
     // `unit` compiles tests as well; checking them here would take half as long again. The
     // peers of the benchmarks are checked in a long run, where they are built.
@@ -59,16 +71,22 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
     run(context, "clippy", &args)
 }
 
-/// The folder with `odkit` and the examples that the tests of other languages run. A second caller
-/// does not call cargo again, which may be busy with a longer build.
+/// The folder with `odkit`, the Python module, and the examples that the tests of other languages run. A second
+/// caller does not call cargo again, which may be busy with a longer build.
 pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
     static BUILT: Mutex<bool> = Mutex::new(false);
     let mut is_built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
     if !*is_built {
         let mut build = cargo(&context.repo.root, &["build"]);
-        build
-            .args(ALL)
-            .args(["--bin", CLI.1, "--example", "corpus", "--example", "tools"]);
+        build.args(ALL).args([
+            "--lib",
+            "--bin",
+            CLI.1,
+            "--example",
+            "corpus",
+            "--example",
+            "tools",
+        ]);
         context.console.run("building odkit", &mut build)?;
         *is_built = true;
     }
@@ -178,7 +196,7 @@ pub(super) fn doc(context: &Context<'_>) -> Result<()> {
 
 pub(super) fn rustdoc(context: &Context<'_>) -> Result<()> {
     let mut command = cargo(&context.repo.root, &["doc", "--no-deps", "--lib"]);
-    command.args(ALL).env("RUSTDOCFLAGS", "-D warnings");
+    command.args(CHECKED).env("RUSTDOCFLAGS", "-D warnings");
     context.console.run("documentation", &mut command)
 }
 
@@ -273,5 +291,38 @@ fn test(context: &Context<'_>, what: &str, args: &[&str], names: &[String]) -> R
 pub(super) fn long(context: &Context<'_>, command: &mut Command) {
     if context.long {
         command.env("ODKIT_LONG", "1");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use serde_json::Value;
+
+    use super::{BENCHES, FEATURES, PAGE_CORE, PEER};
+    use crate::console::cargo;
+
+    /// What a stage does not build, it does not test.
+    #[test]
+    fn all_features_but_defmt_are_built() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mut metadata = cargo(&root, &["metadata", "--no-deps", "--format-version", "1"]);
+        let metadata: Value = serde_json::from_slice(&metadata.output().unwrap().stdout).unwrap();
+        let mut expected = BTreeSet::new();
+        for package in metadata["packages"].as_array().unwrap() {
+            let name = package["name"].as_str().unwrap();
+            let features = package["features"].as_object().unwrap();
+            let defaults = features.get("default").and_then(Value::as_array);
+            let is_default = |it: &str| defaults.is_some_and(|all| all.iter().any(|one| one == it));
+            if ![BENCHES, PEER, PAGE_CORE.0].contains(&name) {
+                let others = features.keys().filter(|it| !is_default(it));
+                let others = others.filter(|it| !["default", "defmt"].contains(&it.as_str()));
+                expected.extend(others.map(|it| format!("{name}/{it}")));
+            }
+        }
+        let built: BTreeSet<String> = FEATURES.split(',').map(String::from).collect();
+        assert_eq!(built, expected);
     }
 }
