@@ -35,8 +35,8 @@ struct Module {
     folder: &'static str,
     /// Its package, and its library.
     package: (&'static str, &'static str),
-    /// Optimisation options of wasm-opt, `None` for the profile that compiles soon. Those of the core take three times as
-    /// long as `-O1` and save 4 % more; it goes without the sections that only tools read.
+    /// Optimisation options of wasm-opt, `None` for the profile that compiles soon. In the order of their names, functions
+    /// of one type are neighbours: the core is 1 % smaller after gzip. It goes without the sections that only tools read.
     level: Option<&'static str>,
     what: &'static str,
 }
@@ -51,7 +51,7 @@ const WHOLE: Module = Module {
 const CORE: Module = Module {
     folder: "core",
     package: PAGE_CORE,
-    level: Some("-Oz --converge --strip-producers --strip-target-features"),
+    level: Some("-Oz --reorder-functions-by-name --strip-producers --strip-target-features"),
     what: "compiling what the page begins with",
 };
 
