@@ -79,6 +79,9 @@ export async function stopTime(page) {
   await page.getByRole('button', { name: 'Run time' }).waitFor();
 }
 
+/** The rows on screen whose CAN-ID this is. Its digits may also be in a time or in data. */
+export const framesOf = (page, id) => page.locator('.frame').filter({ has: page.locator('.id', { hasText: new RegExp(`^\\s*${id}\\s*$`) }) });
+
 /** The visible rows, oldest first. */
 export const rows = (page) =>
   page.$$eval('.frame:not([hidden])', (elements) =>

@@ -1,7 +1,7 @@
 // The frame console: filters, views, folds, search, marks, the send list, logs.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { becomes, booted, captured, file, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
+import { becomes, booted, captured, file, framesOf, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
 import { checks } from './check.mjs';
 
 const check = checks(booted);
@@ -51,6 +51,8 @@ check('a filter that cannot be read says so as it is typed', {}, async (page) =>
 check('a filter takes lists and says how many frames pass; these can be saved alone', {}, async (page) => {
   await traffic(page);
   await filter(page, '701h,000');
+  // The list stays at its beginning, whatever arrives.
+  await page.locator('.frames').press('Home');
   await until('frames that pass', async () => /^\d+ of \d+ pass$/.test(await page.locator('.passing').textContent()));
   await becomes('what passes', () => ids(page), '000 701');
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save these' }).click()]);
@@ -106,7 +108,7 @@ check('changed bytes are highlighted', {}, async (page) => {
 check('the second time column shows delta or cycle', {}, async (page) => {
   await traffic(page);
   await page.getByRole('button', { name: 'Delta' }).click();
-  await becomes('the cycle', () => page.locator('.frame', { hasText: '701' }).last().locator('.delta').textContent(), '+100.0 ms');
+  await becomes('the cycle', () => framesOf(page, '701').last().locator('.delta').textContent(), '+100.0 ms');
 });
 
 const LONG = `[FileInfo]\nFileName=long.eds\n[DeviceInfo]\nProductName=Long\n[MandatoryObjects]\nSupportedObjects=3\n1=0x1000\n2=0x1001\n3=0x1018\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2001\n[1000]\nParameterName=Device type\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x191\nPDOMapping=0\n[1001]\nParameterName=Error register\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n[1018]\nParameterName=Identity\nObjectType=0x9\nSubNumber=2\n[1018sub0]\nParameterName=Number\nObjectType=0x7\nDataType=0x0005\nAccessType=const\nDefaultValue=1\nPDOMapping=0\n[1018sub1]\nParameterName=Vendor\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n[2001]\nParameterName=Label\nObjectType=0x7\nDataType=0x0009\nAccessType=rw\nDefaultValue=Pump room, second floor\nPDOMapping=0\n`;
@@ -140,7 +142,7 @@ check('a transfer of many frames is one row, and opens', {}, async (page) => {
 check('the chosen frame links bytes, fields and objects', {}, async (page) => {
   await nmt(page, 'Start');
   await row(page, 'a PDO', (one) => one.id === '181');
-  await page.locator('.frame', { hasText: '181' }).first().click();
+  await framesOf(page, '181').first().click();
   const detail = page.locator('.frame-detail');
   await detail.getByRole('button', { name: 'Position value' }).click();
   await becomes('the object', () => page.locator('od-object-detail').textContent(), /6004h/);

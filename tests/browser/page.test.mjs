@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { get } from 'node:http';
 import { test } from 'node:test';
-import { becomes, booted, captured, clock, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
+import { becomes, booted, captured, clock, framesOf, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 import { checks } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
 
@@ -195,7 +195,7 @@ check('pause holds the view and loses nothing', async (page) => {
 check('a chosen frame is shown in full and goes back to the send line', async (page) => {
   await sendRaw(page, '601 40 08 10 00');
   await row(page, 'the answer', (one) => one.id === '581');
-  await page.locator('.frame', { hasText: '581' }).click();
+  await framesOf(page, '581').click();
   const detail = page.locator('.frame-detail');
   await becomes('its object', () => detail.textContent(), /1008h/);
   await becomes('its value', () => detail.textContent(), /GXMM/);
