@@ -304,7 +304,7 @@ typedef uint32_t odkit_node;
  */
 typedef struct odkit_storage {
   /*
-   Number of bytes of the memory; 0: none, and a save fails.
+   Number of bytes of the memory, at most 2147483647 (2^31 - 1) and a multiple of `page`; 0: none, and a save fails.
    */
   uint32_t capacity;
   /*

@@ -126,7 +126,7 @@ pub struct odkit_event {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct odkit_storage {
-    /// Number of bytes of the memory; 0: none, and a save fails.
+    /// Number of bytes of the memory, at most 2147483647 (2^31 - 1) and a multiple of `page`; 0: none, and a save fails.
     pub capacity: u32,
     /// Number of bytes of a page of flash; 0 for an EEPROM.
     pub page: u32,
