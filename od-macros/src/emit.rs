@@ -9,8 +9,9 @@ use od_eds::Tables;
 use od_model::owned::SMALL;
 use od_model::real::Reals;
 use od_model::varying::Varying;
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Span, TokenStream};
+use quote::{quote, quote_spanned};
+use syn::spanned::Spanned;
 
 use crate::docs;
 use crate::family::{Device, Family};
@@ -27,6 +28,7 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
         name,
         ..
     } = input;
+    let names = names(input);
     let body = device(input, &family.base, None);
     let paths = source.paths.iter().filter_map(|path| path.to_str());
     let track = paths.map(|path| quote! { const _: &[u8] = ::core::include_bytes!(#path); });
@@ -48,18 +50,42 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
         #[allow(dead_code, non_snake_case, unused_imports, unreachable_pub, clippy::all)]
         #visibility mod #name {
             #(#track)*
+            #names
             #body
             #(#variants)*
         }
     }
 }
 
-/// Path of the items that generated code uses; its number changes with their version, so that a macro and a crate of
-/// different versions do not compile together.
-fn root(input: &Input) -> TokenStream {
-    match &input.root {
-        Some(path) => quote!(#path::__private7),
-        None => quote!(::odkit::__private7),
+/// The module with the names that generated code uses; its path has a number that changes with their version, so that a
+/// macro and a crate of different versions do not compile together.
+///
+/// Each name is in the list: if the path of the crate is wrong, the compiler reports the path, and none of the names.
+fn names(input: &Input) -> TokenStream {
+    let (path, place) = match &input.root {
+        // The path is seen from the module of the call, which is one level above.
+        Some(path)
+            if path
+                .segments
+                .first()
+                .is_some_and(|first| first.ident == "super") =>
+        {
+            (quote!(super::#path), path.span())
+        }
+        Some(path) => (quote!(#path), path.span()),
+        None => (quote!(::odkit), Span::call_site()),
+    };
+    quote_spanned! { place=>
+        #[doc(hidden)]
+        mod __odkit {
+            pub use #path::__private8::{
+                Address, Const, Device, Dictionary, NoApplication, NoPdo, NoStorage, Node, Pdo, Profile, Ro, Rooms, Rw,
+                Rwr, Rww, Series, Services, Text, Values, Var, Wo, __a, __s, __t, __v, rooms,
+                table::{
+                    Buckets, Names, Reals, Row, Shape, Varying, bucket_count, buckets, names, rows, small_buckets,
+                },
+            };
+        }
     }
 }
 
@@ -99,8 +125,11 @@ fn lex(text: &str) -> TokenStream {
 
 /// The contents of the module of one device; a variant re-exports the items that it shares with `family`.
 fn device(input: &Input, device: &Device, of_variant: Option<&[Item]>) -> TokenStream {
-    let path = root(input);
-    let root = &path.to_string();
+    let root = match of_variant {
+        None => "__odkit",
+        Some(_) => "super::__odkit",
+    };
+    let path = lex(root);
     let family = of_variant.unwrap_or_default();
     let out = &mut String::new();
     dictionary(out, root, &device.tables);
@@ -150,7 +179,7 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
         Body::Members(handles) => {
             let _ = writeln!(
                 out,
-                "#[doc = {:?}] pub mod {} {{ use {root}::*;",
+                "#[doc = {:?}] pub mod {} {{ use super::{root}::*;",
                 item.doc, item.name
             );
             let series = item.series();
@@ -236,7 +265,7 @@ fn dictionary(out: &mut String, root: &str, tables: &Tables) {
         out,
         "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
 pub const DICTIONARY: {root}::Dictionary<'static> = {{
-use {root}::table::*;
+use {root}::*;
 static ROWS: [Row; {entries}] = rows(&["
     );
     for row in rows {

@@ -69,6 +69,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         .map(|variant| {
             let mut description = base.clone();
             let context = format!("variant `{}`: ", variant.name);
+            let of_module = report.add_doubts(&variant.doubts);
             told.patch(
                 &mut description,
                 &made,
@@ -77,6 +78,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
                 &context,
                 report,
             );
+            report.replace_doubts(of_module);
             description
         })
         .collect();

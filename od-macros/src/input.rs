@@ -9,7 +9,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, LitInt, LitStr, Path, Token, Visibility, braced, ext::IdentExt};
 
 use crate::fields::{self, Field};
-use crate::report::Report;
+use crate::report::{Doubts, Report};
 use crate::services::Services;
 use crate::words;
 
@@ -37,6 +37,7 @@ pub(crate) struct Variant {
     pub(crate) attrs: Vec<Attribute>,
     pub(crate) name: Ident,
     pub(crate) statements: Vec<Statement>,
+    pub(crate) doubts: Doubts,
 }
 
 /// One statement about one object.
@@ -278,13 +279,10 @@ impl Input {
                     )
                 })?;
                 braced!(inner in body);
-                let mut statements = Vec::new();
-                while !inner.is_empty() {
-                    refuse(&inner.call(Attribute::parse_outer)?, report);
-                    let start = inner.fork();
-                    let result = statement(&inner, IN_VARIANT, report);
-                    statements.extend(recover(&inner, &start, result, report));
-                }
+                let of_module = report.replace_doubts(Doubts::default());
+                let statements = statements(&inner, report);
+                let doubts = report.replace_doubts(of_module);
+                let statements = statements?;
                 let help = "choose another name for the variant";
                 if self.variants.iter().any(|variant| variant.name == name) {
                     let message = format!("there are two variants `{name}`\nhelp: {help}");
@@ -300,6 +298,7 @@ impl Input {
                     attrs,
                     name,
                     statements,
+                    doubts,
                 });
             }
             _ => self.statements.push(statement(body, IN_MODULE, report)?),
@@ -337,6 +336,18 @@ fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
         ));
     }
     Ok(Some(path))
+}
+
+/// The statements of a variant.
+fn statements(body: ParseStream, report: &mut Report) -> syn::Result<Vec<Statement>> {
+    let mut statements = Vec::new();
+    while !body.is_empty() {
+        refuse(&body.call(Attribute::parse_outer)?, report);
+        let start = body.fork();
+        let result = statement(body, IN_VARIANT, report);
+        statements.extend(recover(body, &start, result, report));
+    }
+    Ok(statements)
 }
 
 const STATEMENTS: [&str; 12] = [

@@ -182,7 +182,8 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::odkit::__private7::Dictionary<'static> =",
+            "mod __odkit { pub use ::odkit::__private8::{",
+            "pub const DICTIONARY: __odkit::Dictionary<'static> =",
             "static ROWS: [Row; 5] = rows(&[0x",
             "Shape { store_len: 7, longest: 4, has_streams: false, reals: ::core::option::Option::None,",
             "Names { rows: names(b\"",
@@ -190,9 +191,8 @@ mod tests {
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
-            "::odkit::__private7::rooms!(Device);",
-            "pub type Node<A = ::odkit::__private7::NoApplication, S = ::odkit::__private7::NoStorage> =
-             ::odkit::__private7::Node<Device, A, S>;",
+            "__odkit::rooms!(Device);",
+            "pub type Node<A = __odkit::NoApplication, S = __odkit::NoStorage> = __odkit::Node<Device, A, S>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

@@ -13,6 +13,12 @@ pub(crate) struct Report {
     errors: Vec<syn::Error>,
     warnings: Vec<Warning>,
     tokens: Vec<Place>,
+    doubts: Doubts,
+}
+
+/// Statements that could not be read, of the module or of one variant: another error may follow from them.
+#[derive(Clone, Default)]
+pub(crate) struct Doubts {
     /// Addresses of statements that could not be read completely.
     half_read: BTreeSet<Address>,
     /// Whether the file could not be read, or a statement of which nobody knows the object.
@@ -85,22 +91,35 @@ impl Report {
 
     /// Records that a statement about this address could not be read completely.
     pub(crate) fn half_read(&mut self, address: Address) {
-        self.half_read.insert(address);
+        self.doubts.half_read.insert(address);
     }
 
     /// Records that the file could not be read, or a statement of which nobody knows the object.
     pub(crate) fn lose(&mut self) {
-        self.has_lost = true;
+        self.doubts.has_lost = true;
     }
 
     /// Returns whether the file could not be read, or a statement of which nobody knows the object.
     pub(crate) const fn has_lost(&self) -> bool {
-        self.has_lost
+        self.doubts.has_lost
     }
 
     /// Addresses of statements that could not be read completely.
     pub(crate) const fn half_read_ones(&self) -> &BTreeSet<Address> {
-        &self.half_read
+        &self.doubts.half_read
+    }
+
+    /// Begins with the doubts of another part of the call. Returns those of the part before.
+    pub(crate) fn replace_doubts(&mut self, doubts: Doubts) -> Doubts {
+        std::mem::replace(&mut self.doubts, doubts)
+    }
+
+    /// Adds the doubts of a variant to those of the module. Returns those of the module.
+    pub(crate) fn add_doubts(&mut self, of_variant: &Doubts) -> Doubts {
+        let before = self.doubts.clone();
+        self.doubts.half_read.extend(&of_variant.half_read);
+        self.doubts.has_lost |= of_variant.has_lost;
+        before
     }
 
     /// Drops the warnings: `warnings = off;`.
@@ -110,7 +129,8 @@ impl Report {
 
     /// Returns whether every statement about this object could be read.
     pub(crate) fn is_read(&self, index: u16) -> bool {
-        !self.half_read.iter().any(|address| address.index == index)
+        let mut half_read = self.doubts.half_read.iter();
+        !half_read.any(|address| address.index == index)
     }
 
     /// Number of errors so far.

@@ -38,18 +38,17 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
         return nothing(files);
     };
     let mut paths = vec![path];
+    if let Some(base) = base(literal, &text) {
+        let shown = literal.value();
+        let other = input.overlay.as_ref().map(LitStr::value);
+        let base = other.filter(|other| !is_overlay(other)).unwrap_or(base);
+        let said =
+            format!("`{shown}` is an overlay\nhelp: write `eds = \"{base}\" + \"{shown}\";`");
+        report.at(literal.span(), said);
+        return nothing(files);
+    }
     let (files, text) = match &input.overlay {
-        None => {
-            if let Some(base) = base(literal, &text) {
-                let shown = literal.value();
-                let said = format!(
-                    "`{shown}` is an overlay\nhelp: write `eds = \"{base}\" + \"{shown}\";`"
-                );
-                report.at(literal.span(), said);
-                return nothing(files);
-            }
-            (files, text)
-        }
+        None => (files, text),
         Some(literal) => {
             let Some((path, over)) = file(literal, report) else {
                 return nothing(files);
@@ -114,10 +113,13 @@ fn base(literal: &LitStr, text: &str) -> Option<String> {
         let path = Path::new(&shown).with_file_name(base.value);
         return Some(path.display().to_string());
     }
-    let is_overlay = Path::new(&shown)
-        .extension()
-        .is_some_and(|end| end.eq_ignore_ascii_case("overlay"));
-    is_overlay.then(|| "my_device.eds".to_string())
+    is_overlay(&shown).then(|| "my_device.eds".to_string())
+}
+
+/// Returns whether the name of the file ends as that of an overlay.
+fn is_overlay(path: &str) -> bool {
+    let end = Path::new(path).extension();
+    end.is_some_and(|end| end.eq_ignore_ascii_case("overlay"))
 }
 
 /// Path and text of one file; `None` if it cannot be read, which is reported.

@@ -21,7 +21,7 @@ use alloc::vec::Vec;
 
 use crate::document::is_xml;
 use crate::finding::{Finding, Place};
-use crate::scan::lines::{lines, with_ends};
+use crate::scan::lines::{is_conflict, lines, with_ends};
 use crate::scan::names::{List, object_of};
 use crate::scan::number::number;
 use crate::span::{Span, Spanned};
@@ -102,11 +102,18 @@ pub fn base_of(overlay: &str) -> Option<Spanned<&str>> {
 ///
 /// # Errors
 /// Objects and sections that the overlay removes but the base lacks, another `Remove=` than 1, a section that is
-/// in the overlay twice, or a base that is XML: a sentence each, with the line of the overlay.
+/// in the overlay twice, a merge conflict, or a base that is XML: a sentence each, with the line of the overlay.
 pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>> {
     if is_xml(base) {
         let why = "the base is XML; write an EDS of it with `odkit convert`";
         return Err(vec![(1, why.to_string())]);
+    }
+    let is_mark = |(_, line): &(u32, &str)| is_conflict(line.trim());
+    if let Some((number, mark)) = (1..).zip(with_ends(overlay)).find(is_mark) {
+        let given: String = mark.trim().chars().take(MAX_SHOWN).collect();
+        let why =
+            "is a mark of a merge conflict that is not resolved; keep one of the two versions";
+        return Err(vec![(number, format!("`{given}` {why}"))]);
     }
     let parts = read(base, Origin::Base);
     let before = objects(&parts);
@@ -114,7 +121,14 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
     parts.into_iter().for_each(|part| sections.push(part));
     let mut faults = Vec::new();
     let mut seen = Seen::default();
-    for section in read(overlay, Origin::Overlay).into_iter().skip(1) {
+    let mut added = read(overlay, Origin::Overlay).into_iter();
+    // The reader reports what is before the first section, as it does in any file.
+    let outside = added.next().into_iter().flat_map(|part| part.lines);
+    if let Some(Some(first)) = sections.parts.first_mut() {
+        let is_text = |line: &Line<'_>| !line.text.trim().is_empty();
+        first.lines.extend(outside.filter(is_text));
+    }
+    for section in added {
         let removes = match section.removes() {
             Ok(removes) => removes,
             Err(fault) => {
@@ -276,7 +290,8 @@ impl<'t> Part<'t> {
         Ok(removes)
     }
 
-    /// Keys of the overlay replace the same keys; others are added at the end.
+    /// Keys of the overlay replace the same keys of the base; others are added at the end, also a second line of a key,
+    /// which the reader reports.
     fn take_over(&mut self, overlay: Part<'t>) {
         let is_blank = |line: &Line<'_>| line.text.trim().is_empty();
         let keys = self.keys.get_or_insert_with(|| {
@@ -293,7 +308,8 @@ impl<'t> Part<'t> {
         for line in overlay.lines.into_iter().skip(1) {
             let key = line.key().map(str::to_ascii_lowercase);
             let same = key.as_ref().and_then(|key| keys.get(key));
-            if let Some(own) = same.and_then(|at| self.lines.get_mut(*at)) {
+            let own = same.and_then(|at| self.lines.get_mut(*at));
+            if let Some(own) = own.filter(|own| own.origin == Origin::Base) {
                 *own = line;
             } else if !is_blank(&line) {
                 if let Some(key) = key {

@@ -58,9 +58,10 @@ pub use od_wire::{emcy, lss, nmt, sdo};
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the emitted
 /// code, so that a macro and a crate of different versions give an error with this name.
 #[doc(hidden)]
-pub mod __private7 {
+pub mod __private8 {
     pub use od_model::typed::emit::*;
     pub use od_model::{Address, Dictionary};
+    pub use od_runtime::rooms::{Rooms, Values};
     pub use od_runtime::storage::NoStorage;
     pub use od_runtime::{Device, NoApplication, Node, Profile, Services, rooms};
 }

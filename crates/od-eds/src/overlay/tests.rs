@@ -60,7 +60,46 @@ fn number(made: &Overlaid, index: u16, sub: u8) -> Option<i128> {
 #[test]
 fn an_empty_overlay_changes_nothing() {
     assert_eq!(laid("").text, BASE);
-    assert_eq!(laid("; a comment\n").text, BASE);
+    assert_eq!(laid("\n").text, BASE);
+    let (before, after) = (
+        crate::parse(BASE),
+        crate::parse(&laid("; ours, too\n").text),
+    );
+    assert_eq!(before.findings, after.findings);
+    assert_eq!(before.description, after.description);
+}
+
+/// A mistake in an overlay is reported, as it is in any file.
+#[test]
+fn lines_before_the_first_section_and_second_lines_of_a_key_are_reported() {
+    let codes = |text: &str| {
+        let made = laid(text);
+        let findings = crate::load(&made.text).findings.into_iter();
+        let placed = findings.map(|finding| made.place(finding));
+        let of_overlay = placed.filter(|(origin, _)| *origin == Origin::Overlay);
+        let told = of_overlay.map(|(_, finding)| {
+            let line = finding.span().map_or(0, |span| span.line);
+            format!("{} {line}", finding.code())
+        });
+        told.collect::<Vec<_>>().join(", ")
+    };
+    assert_eq!(codes("[2000]\nDefaultValue=5\n"), "");
+    assert_eq!(
+        codes("; mine\nDefaultValue=5\n[2000]\nHighLimit=8\n"),
+        "W0105 2"
+    );
+    assert_eq!(codes("[2000]\nDefaultValue=5\ndefaultvalue=6\n"), "E0117 3");
+}
+
+#[test]
+fn a_comment_at_the_head_of_an_overlay_allows_findings() {
+    let head = ";odkit-allow=W0635 another program watches this device\n";
+    let mut allows = crate::check::Allows::of(&laid(head).text);
+    let mut findings = crate::load(BASE).findings;
+    let has = |findings: &[Finding]| findings.iter().any(|finding| finding.code() == "W0635");
+    assert!(has(&findings));
+    allows.filter(&mut findings);
+    assert!(!has(&findings));
 }
 
 #[test]
@@ -112,6 +151,10 @@ fn what_an_overlay_cannot_mean_is_a_fault() {
         (
             "[2001sub1]\nLowLimit=1\n[1000]\nDefaultValue=2\n[2001SUB1]\nLowLimit=2\n",
             "5 section [2001SUB1] is already in line 1; move its lines there",
+        ),
+        (
+            "<<<<<<< HEAD\n[2000]\nDefaultValue=1\n=======\n[2000]\nDefaultValue=2\n>>>>>>> mine\n",
+            "1 `<<<<<<< HEAD` is a mark of a merge conflict that is not resolved; keep one of the two versions",
         ),
         (
             "[2000]\nDefaultValue=1\n[2000]\nRemove=1\n",

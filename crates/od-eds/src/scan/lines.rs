@@ -335,7 +335,7 @@ fn without_sign(line: &str) -> Option<(&str, &str)> {
 
 /// Returns whether the line is a mark of a merge conflict: seven equal signs or brackets, alone or
 /// before a name.
-fn is_conflict(line: &str) -> bool {
+pub(crate) fn is_conflict(line: &str) -> bool {
     let marks = ["<<<<<<<", "=======", ">>>>>>>", "|||||||"];
     let rest = marks.iter().find_map(|mark| line.strip_prefix(mark));
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
