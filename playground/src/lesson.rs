@@ -63,6 +63,8 @@ record! {
         holds: bool,
         /// The condition in words, with its current state.
         text: String,
+        /// It held when the step began, and has held since.
+        already: Maybe<bool>,
         /// It held since the step began, but no longer holds.
         lost: Maybe<bool>,
     }
@@ -74,6 +76,8 @@ record! {
         /// Virtual microseconds at which each checkpoint was reached.
         reached: Vec<f64>,
         requirements: Vec<LessonRequirement>,
+        /// All conditions held before the learner acted in this step, and it waits for an action.
+        idle: bool,
     }
 
     /// Result for an answer, by its parts.
@@ -118,6 +122,7 @@ impl Bus {
         let requirement = |one: lesson::Requirement| LessonRequirement {
             holds: one.holds,
             text: one.text,
+            already: Maybe(one.already.then_some(true)),
             lost: Maybe(one.lost.then_some(true)),
         };
         let reached = progress.reached().iter();
@@ -126,6 +131,7 @@ impl Bus {
             step: progress.step(),
             done: progress.is_done(),
             reached: reached.map(micros).collect(),
+            idle: progress.is_idle() && requirements.iter().all(|one| one.holds),
             requirements: requirements.into_iter().map(requirement).collect(),
         };
         state.value()

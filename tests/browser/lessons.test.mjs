@@ -288,6 +288,21 @@ test('a lesson comes from an address; if it does not exist, an empty bench remai
   await context.close();
 });
 
+test('a step whose checks held before it began shows them as already so, and waits for an action of its own', async () => {
+  const { page, faults, close } = await open({ hash: '#lesson=scaling' });
+  const lesson = page.locator('od-lesson');
+  await sdo(page, '6002', '36000');
+  await sdo(page, '6001', '3600');
+  await lesson.getByRole('button', { name: 'Continue' }).click();
+  await lesson.getByText('a range of 36000 (already so)').waitFor();
+  await lesson.getByText('Repeat what the step asks for').waitFor();
+  assert.equal(await lesson.locator('.happened').count(), 0);
+  await sdo(page, '6002', '36000');
+  await lesson.locator('.happened').waitFor();
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test('a check that can no longer hold offers to go back, and "Show me" does so', async () => {
   const { page, faults, close } = await open({ hash: '#lesson=aborts' });
   const lesson = page.locator('od-lesson');
@@ -302,7 +317,7 @@ test('a check that can no longer hold offers to go back, and "Show me" does so',
   // 1000 with four bytes is valid: 6001h is no longer 8192, which the step requires.
   const spoil = async () => {
     await sdo(page, '6001', '1000');
-    await lesson.getByText('A condition held when this step began and no longer does').waitFor();
+    await lesson.getByText('A condition held in this step and no longer does').waitFor();
   };
   await spoil();
   await lesson.getByRole('button', { name: 'Begin this step again' }).click();

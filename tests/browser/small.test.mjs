@@ -25,24 +25,27 @@ for (const [width, height] of [[1366, 625], [390, 844]]) {
   });
 }
 
-check('on a phone the buttons of a step are above the bar of panels, and no message covers them', { hash: '#lesson=nmt', width: 390, height: 844 }, async (page) => {
-  const bar = await page.getByRole('tablist').boundingBox();
-  const foot = page.locator('.lesson-foot');
-  const isAbove = async (name) => {
-    const box = await foot.getByRole('button', { name, exact: true }).boundingBox();
-    return box && box.y + box.height <= bar.y;
-  };
-  await until('the hint above the bar', () => isAbove('A hint'));
-  await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
-  assert.ok(await isAbove('A hint'), 'at the end of the page, too');
-  await page.getByRole('tab', { name: 'Bus' }).click();
-  await nmt(page, 'Start');
-  const told = page.getByText('Step 1 is done.');
-  await told.waitFor();
-  await page.getByRole('tab', { name: 'Lesson' }).click();
-  await told.waitFor({ state: 'detached' });
-  await until('the next button above the bar', () => isAbove('Continue'));
-});
+for (const [width, height] of [[390, 844], [640, 400], [800, 900]])
+  check(`the checks and the buttons of a step are above the bar of panels, and no message covers them, ${width} pixels wide`, { hash: '#lesson=nmt', width, height }, async (page) => {
+    const bar = await page.getByRole('tablist').boundingBox();
+    const foot = page.locator('.lesson-foot');
+    const isAbove = async (name) => {
+      const box = await foot.getByRole('button', { name, exact: true }).boundingBox();
+      return box && box.y + box.height <= bar.y;
+    };
+    await until('the hint above the bar', () => isAbove('A hint'));
+    const checks = await foot.locator('.checks').boundingBox();
+    assert.ok(checks.y >= 0 && checks.y + checks.height <= bar.y, 'the checks are in sight');
+    await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+    assert.ok(await isAbove('A hint'), 'at the end of the page, too');
+    await page.getByRole('tab', { name: 'Bus' }).click();
+    await nmt(page, 'Start');
+    const told = page.getByText('Step 1 is done.');
+    await told.waitFor();
+    await page.getByRole('tab', { name: 'Lesson' }).click();
+    await told.waitFor({ state: 'detached' });
+    await until('the next button above the bar', () => isAbove('Continue'));
+  });
 
 check('hidden texts make no page taller than its window', { width: 1280, height: 800 }, async (page) => {
   await booted(page);

@@ -111,8 +111,17 @@ impl Take {
                 step.title
             ));
             for one in self.progress.requirements(&mut self.bench.bus) {
-                let mark = if one.holds { "holds  " } else { "missing" };
+                let mark = match (one.holds, one.already) {
+                    (true, true) => "already",
+                    (true, false) => "holds  ",
+                    (false, _) => "missing",
+                };
                 lines.push(format!("#   {mark}  {}", one.text));
+            }
+            if self.progress.is_idle() {
+                lines.push(
+                    "# this step waits for an action of its own; repeat what it asks for".into(),
+                );
             }
             let hints = step.hints.len();
             for (number, hint) in (1..=hints).zip(&step.hints).take(args.hints) {

@@ -53,6 +53,17 @@ pub enum Action {
     Random(Draw),
 }
 
+impl Action {
+    /// Returns whether the line sends, or changes a device or the bus line. The line that `Random` draws acts, too.
+    pub(crate) fn acts(&self) -> bool {
+        match self {
+            Self::Deed(deed) => !matches!(deed, Deed::Wait | Deed::Use(_)),
+            Self::Device(_) | Self::Read { .. } | Self::Write { .. } => true,
+            Self::Ignore(_) | Self::Skip | Self::Expect(_) | Self::Random(_) => false,
+        }
+    }
+}
+
 /// The content of a `random` line.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Draw {
@@ -113,8 +124,13 @@ pub enum Expect {
     },
     /// No frame comes for this time in microseconds.
     Silence(u64),
-    /// A condition about a device or the bus line holds.
-    Fact(Fact),
+    /// A condition about a device or the bus line holds now, or begins to hold in a time.
+    Fact {
+        /// The condition.
+        fact: Fact,
+        /// The longest wait for it, in microseconds.
+        within: u64,
+    },
 }
 
 /// Time of an expected frame.

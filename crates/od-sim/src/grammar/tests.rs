@@ -29,8 +29,8 @@ fn every_kind_of_line_is_read() {
          nmt start all\nsync counter 3\nsync 5 times\nsdo read 6004h = 5\nsdo read 2000h aborts 06020000h\n\
          sdo write \"Identity object.Vendor-ID\" = 5 as u16 aborts 0x06010002\nignore 181#*\nignore nothing\n\
          skip\nguard\nread 1018h:01\nwrite 1017h=500 as u16\nexpect 581#43 05 05 5 times every 5ms\nexpect 581#* every 5ms 43 times\nexpect abort 06090031h\n\
-         expect silence 1s\nexpect state off\nexpect value 6004h = 5\nexpect led red flashing",
-        "35 lines",
+         expect silence 1s\nexpect state off\nexpect value 6004h = 5\nexpect controller bus-off within 5s\nexpect led red flashing",
+        "36 lines",
     );
 }
 

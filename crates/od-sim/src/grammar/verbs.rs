@@ -187,12 +187,23 @@ fn expect(tokens: &mut Tokens<'_>) -> Result<Expect, Problem> {
         return Ok(Expect::Silence(tokens.duration()?));
     }
     let here = *tokens;
-    match Fact::parse(tokens)? {
+    let mut rest = here;
+    let mut head = rest.split_at_word(&["within"]);
+    match Fact::parse(&mut head)? {
         Some(Fact::Turned(_)) => {
             let help = "`turned` works in lessons only; write `expect value 6004h = …`";
             return Err(here.problem("a script cannot expect `turned`", help));
         }
-        Some(fact) => return Ok(Expect::Fact(fact)),
+        Some(fact) => {
+            head.end()?;
+            *tokens = rest;
+            let within = if tokens.take("within") {
+                tokens.duration()?
+            } else {
+                0
+            };
+            return Ok(Expect::Fact { fact, within });
+        }
         None => {}
     }
     let (mut head, times, timing) = repeated(tokens)?;

@@ -63,6 +63,10 @@ impl Added {
 impl Journal {
     pub(super) fn apply(&mut self, input: &Input) -> Added {
         let rig = &mut self.rig;
+        // A script says itself which of its lines act.
+        if !matches!(input, Input::Script { .. } | Input::Seed { .. }) {
+            rig.note_act();
+        }
         match *input {
             Input::Add {
                 ref source,

@@ -172,6 +172,7 @@ impl Journal {
             self.entries.truncate(self.done);
             self.told = self.told.min(self.done);
             let at = self.rig.bus.now();
+            self.rig.note_act();
             self.rig.send(&frame);
             self.record(at, Input::send(&frame));
             any = true;

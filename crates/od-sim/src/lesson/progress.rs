@@ -22,6 +22,8 @@ const ON_ITS_WAY: u64 = 100_000;
 pub struct Requirement {
     /// It holds.
     pub holds: bool,
+    /// It held when the step began, and has held since.
+    pub already: bool,
     /// It held since the step began but no longer does; the learner may be unable to restore it.
     pub lost: bool,
     /// The condition in words; while it does not hold, its present state follows in parentheses.
@@ -42,6 +44,8 @@ struct Note {
     /// The condition was checked, and held at some time.
     looked: bool,
     held: bool,
+    /// It held when the step began, and at each check since.
+    already: bool,
 }
 
 /// Watches a bench during a lesson.
@@ -58,6 +62,10 @@ pub struct Progress {
     notes: Vec<Vec<Note>>,
     /// Time since which all conditions hold.
     met: Option<Instant>,
+    /// The learner has acted in this step.
+    acted: bool,
+    /// All conditions held before the learner acted.
+    idle: bool,
     /// Microseconds by which a frame may come late because the line is not free.
     late: u64,
     /// Time of a disturbed frame.
@@ -83,12 +91,14 @@ impl Progress {
             turns: Vec::new(),
             notes: Vec::new(),
             met: None,
+            acted: false,
+            idle: false,
             late: 0,
             disturbed: None,
             reached: Vec::new(),
             news: VecDeque::new(),
         };
-        progress.begin(0, &bench.bus);
+        progress.begin(0, &mut bench.bus);
         progress
     }
 
@@ -119,7 +129,7 @@ impl Progress {
 
     /// Goes to a step as if the previous ones had just been done; earlier frames do
     /// not count for it.
-    pub fn begin(&mut self, step: usize, bus: &Bus) {
+    pub fn begin(&mut self, step: usize, bus: &mut Bus) {
         self.step = step.min(self.lesson.steps.len());
         self.reached.truncate(self.step);
         while self.reached.len() < self.step {
@@ -128,9 +138,34 @@ impl Progress {
         self.began = bus.now();
         self.late = bus.longest_wait();
         self.met = None;
+        (self.acted, self.idle) = (false, false);
         let turns = |device: &VirtualDevice| device.shaft(bus.now()).map(|shaft| shaft.turns);
         self.turns = bus.devices().iter().map(turns).collect();
         self.forget();
+        let since = (self.began, self.disturbed);
+        let step = self.lesson.steps.get(self.step);
+        for (line, notes) in step
+            .iter()
+            .flat_map(|step| &step.checkpoint)
+            .zip(&mut self.notes)
+        {
+            for (one, note) in line.alternatives.iter().zip(notes) {
+                let device = device_of(&self.devices, one);
+                let turns = self.turns.get(device).copied().flatten();
+                note.already = holds(one, note, bus, device, turns, since).0;
+            }
+        }
+    }
+
+    /// Notes that the learner acts on the bench. A step is done only after that, because its
+    /// conditions may hold when it begins.
+    pub fn acted(&mut self) {
+        self.acted = true;
+    }
+
+    /// Returns whether all conditions of this step held at some time, and the learner has not acted in it.
+    pub fn is_idle(&self) -> bool {
+        self.idle && !self.acted
     }
 
     fn forget(&mut self) {
@@ -233,14 +268,16 @@ impl Progress {
         let now = bus.now();
         let met = self.met.filter(|_| all).unwrap_or(now);
         self.met = all.then_some(met);
+        self.idle |= all && !self.acted;
         let is_complete = !bus.is_busy() || now.micros_since(met) >= ON_ITS_WAY;
-        if all && is_complete {
+        let is_done = all && is_complete && self.acted;
+        if is_done {
             let done = self.step;
             self.news.push_back(done);
             self.reached.push(now);
             self.begin(done + 1, bus);
         }
-        all && is_complete
+        is_done
     }
 
     /// Returns the conditions of the current step, with their state.
@@ -254,7 +291,7 @@ impl Progress {
         for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
             let named = |name: &str| number(devices, Some(name)).unwrap_or(0);
             let mut text = line.words(bus.devices(), named);
-            let (mut met, mut held) = (false, false);
+            let (mut met, mut held, mut already) = (false, false, false);
             let mut state = String::new();
             for (one, note) in line.alternatives.iter().zip(notes) {
                 let device = device_of(devices, one);
@@ -263,6 +300,7 @@ impl Progress {
                 let now = now.words(&self.lesson.language);
                 met |= holds;
                 held |= note.held;
+                already |= holds && note.already;
                 if !now.is_empty() {
                     state = now;
                 }
@@ -272,6 +310,7 @@ impl Progress {
             }
             requirements.push(Requirement {
                 holds: met,
+                already,
                 lost: held && !met,
                 text,
             });
@@ -430,6 +469,7 @@ fn holds(
         Err(why) => (false, Now::Other(why)),
     };
     note.held |= is;
+    note.already &= is;
     if !is {
         note.since = None;
         return (false, state);

@@ -96,10 +96,11 @@ fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Pr
         let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {
             return;
         };
-        progress.begin(number, &bench.bus);
-        let at_once = progress.look(&mut bench.bus);
+        progress.begin(number, &mut bench.bus);
+        progress.look(&mut bench.bus);
+        let at_once = progress.is_idle();
         pass(&mut bench.bus, &mut progress, IDLE);
-        if progress.step() > number {
+        if progress.is_idle() {
             let when = if at_once {
                 "at the start"
             } else {
@@ -189,7 +190,7 @@ fn waits(
     let (mut bench, mut progress) = played(lesson, host, &solutions[..done])?;
     pass(&mut bench.bus, &mut progress, IDLE);
     match lesson.steps.get(done) {
-        Some(step) if progress.step() > done => {
+        Some(step) if progress.is_idle() => {
             let message = format!("the checkpoint of `{}` holds after a pause", step.title);
             Err(Problem::new(step.line, message, NEEDS_ACTION))
         }

@@ -26,6 +26,11 @@ impl Host for Watched<'_> {
         true
     }
 
+    fn act(&mut self) {
+        self.host.act();
+        self.progress.acted();
+    }
+
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         self.host.frame(at, origin, frame);
         self.progress.frame(at, origin, frame);

@@ -97,6 +97,13 @@ impl Rig {
         result.map(|_| ()).map_err(|stop| stop.to_string().into())
     }
 
+    /// Tells the lesson that the learner acts.
+    pub(crate) fn note_act(&mut self) {
+        if let Some(run) = &mut self.lesson {
+            run.progress.acted();
+        }
+    }
+
     /// Passes a transmitted frame to the lesson. A frame from a link counts as that of a device.
     pub(super) fn show_lesson(&mut self, seen: &LineEvent) {
         let (at, origin, frame) = match *seen {

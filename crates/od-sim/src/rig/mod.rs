@@ -307,6 +307,8 @@ impl Rig {
 
     fn show_lesson_disturbance(&mut self, _: Instant) {}
 
+    pub(crate) fn note_act(&mut self) {}
+
     fn check_lesson(&mut self) {}
 
     fn reached(&self) -> usize {

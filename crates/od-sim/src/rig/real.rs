@@ -31,6 +31,8 @@ impl Rig {
     /// Handles a frame from the link.
     pub fn hear(&mut self, frame: &Frame) {
         let now = self.bus.now();
+        // A learner can act on the hardware, where the bench sees only the frames.
+        self.note_act();
         self.bus.receive(frame);
         let mut devices = self.bus.devices().iter();
         let device = devices.position(|one| one.is_sender(frame));

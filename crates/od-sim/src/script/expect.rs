@@ -30,25 +30,35 @@ impl Runner<'_> {
                 return Ok(());
             }
             Expect::Silence(micros) => self.silence(*micros)?,
-            Expect::Fact(fact) => self.fact(fact)?,
+            Expect::Fact { fact, within } => self.fact(fact, *within)?,
         }
         self.place.held += 1;
         Ok(())
     }
 
-    fn fact(&mut self, fact: &Fact) -> Result<()> {
-        let bench = &mut *self.bench;
-        let found = fact.look(&mut bench.bus, bench.current, None);
-        self.collect();
-        let found = found.or_else(impossible)?;
-        if found.holds {
-            Ok(())
-        } else {
-            failed(
-                fact.words(Some(self.device()?), "", false),
-                format!("it is {}", found.now),
-            )
+    /// Looks after each event, because a state such as bus-off may end again before the next frame.
+    fn fact(&mut self, fact: &Fact, within: u64) -> Result<()> {
+        let end = self.now().plus_micros(within);
+        let now = loop {
+            let bench = &mut *self.bench;
+            let found = fact.look(&mut bench.bus, bench.current, None);
+            self.collect();
+            let found = found.or_else(impossible)?;
+            if found.holds {
+                return Ok(());
+            }
+            if self.now() >= end || self.must_end() {
+                break found.now;
+            }
+            let soon = self.now().plus_micros(1);
+            let next = self.bench.bus.next_deadline();
+            self.advance(next.map_or(end, |at| at.max(soon).min(end)));
+        };
+        let mut wanted = fact.words(Some(self.device()?), "", false);
+        if within > 0 {
+            wanted.push_str(&format!(" within {}", duration(within)));
         }
+        failed(wanted, format!("it is {now}"))
     }
 
     fn silence(&mut self, micros: u64) -> Result<()> {
@@ -114,5 +124,52 @@ impl Runner<'_> {
             }
             None => format!("nothing came by {now:?} s, nor in the 10 s after it"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+
+    use crate::script::{Bare, Script, run};
+
+    /// The reason why a script stops, or an empty text.
+    fn stops(lines: &str) -> String {
+        let script = Script::parse(lines).expect(lines);
+        match run(&script, &mut Bare(od_devices::DEVICES)) {
+            Ok(_) => String::new(),
+            Err(stop) => stop.to_string(),
+        }
+    }
+
+    /// A node at another bit rate is bus-off for a moment only; no line about the present moment meets it.
+    #[test]
+    fn a_state_that_comes_and_goes_is_met_within_a_time() {
+        let two = "line real\ndevice gxmm node 1\nswitch bitrate 2\ndevice gxmm node 2\nwait 1s\nsdo write 1017h = 100\nsdo write 1010h:01 = \"save\"\nswitch node 2\nswitch bitrate 4\npower cycle 1s\n";
+        let bus_off = "expect controller bus-off";
+        assert_eq!(
+            stops(&format!(
+                "{two}{bus_off} within 2s\nexpect controller error-active within 2s"
+            )),
+            ""
+        );
+        assert!(stops(&format!("{two}{bus_off}")).contains("it is error active"));
+        let never = stops("line real\ndevice gxmm node 1\nexpect controller bus-off within 50ms");
+        assert!(
+            never.contains("the CAN controller is bus-off within 50ms"),
+            "{never}"
+        );
+    }
+
+    #[test]
+    fn a_value_is_met_at_the_event_that_changes_it() {
+        let turning =
+            "device gxmm\nshaft rpm 60\nnmt start\nsdo write 1800h:05 = 100\nignore 181#*\n";
+        assert_eq!(
+            stops(&format!("{turning}expect state operational within 1s")),
+            ""
+        );
+        let far = format!("{turning}expect state stopped within 400ms");
+        assert!(stops(&far).contains("it is Operational"), "{}", stops(&far));
     }
 }

@@ -71,6 +71,13 @@ pub trait Host {
         self.inner().is_some_and(Host::stops)
     }
 
+    /// Called before a line acts on the bench: it sends, or changes a device or the bus line.
+    fn act(&mut self) {
+        if let Some(host) = self.inner() {
+            host.act();
+        }
+    }
+
     /// Called for each frame on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         if let Some(host) = self.inner() {

@@ -109,7 +109,9 @@ impl Cost {
                 devices: added.nodes.len().max(1),
                 ..Self::default()
             },
-            Action::Expect(Expect::Silence(micros)) => Self::time(*micros),
+            Action::Expect(Expect::Silence(micros) | Expect::Fact { within: micros, .. }) => {
+                Self::time(*micros)
+            }
             Action::Expect(Expect::Frame { times, timing, .. }) => match timing {
                 Timing::Now => Self::default(),
                 Timing::Within(micros) | Timing::After(micros) | Timing::Every(micros) => {

@@ -193,6 +193,9 @@ impl Runner<'_> {
             When::At(at) => self.advance(at),
             When::After(micros) => self.advance(now.plus_micros(micros)),
         }
+        if statement.action.acts() {
+            self.host.act();
+        }
         match &statement.action {
             Action::Deed(deed) => self.act(deed),
             Action::Device(added) => self.add(added),
@@ -421,7 +424,7 @@ impl Runner<'_> {
     }
 
     /// Returns whether there were more frames than the limit of the script, or the host ends the run.
-    fn must_end(&mut self) -> bool {
+    pub(super) fn must_end(&mut self) -> bool {
         let frames = self.place.frames.max(self.place.own);
         self.limits.is_some_and(|limits| frames > limits.frames) || self.host.stops()
     }

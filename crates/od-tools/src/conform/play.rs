@@ -208,7 +208,7 @@ impl Player {
                     None => Ok(()),
                 };
             }
-            Expect::Fact(_) => return skip(on_a_bench(line)),
+            Expect::Fact { .. } => return skip(on_a_bench(line)),
         };
         let (micros, exact) = match timing {
             // A frame that is being transmitted counts as received.

@@ -166,13 +166,14 @@ class LessonPanel extends View {
     const isLost = progress.step === number && progress.requirements.some(({ lost }) => lost);
     return html`${isLow() ? nothing : this.quiz(step, number)}
       <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
-        (one) => html`<li data-done=${one.holds}>${one.holds ? icons.tick : html`<i></i>`}<span><span class="sr">${one.holds ? t.isDone : t.isOpen}</span>${one.text}</span></li>`,
+        (one) => html`<li data-done=${one.holds} ?data-already=${one.already}>${one.holds ? icons.tick : html`<i></i>`}<span>${one.already ? nothing : html`<span class="sr">${one.holds ? t.isDone : t.isOpen}</span>`}${one.text}${one.already ? html` <em>(${t.already})</em>` : nothing}</span></li>`,
       )}</ul>
       ${this.hints < step.hints.length
         ? html`<button class="small" @click=${this.hint}>${this.hints ? t.nextHint : t.hint}</button>`
         : step.solution && !state.real.value ? html`<button class="small" title=${t.showTitle} @click=${() => void this.show(step, number, isLost)}>${t.show}</button>` : nothing}
-      ${isLost || state.real.value ? nothing : html`<button class="icon-button" aria-label=${t.back} title=${t.back} @click=${() => void this.back(number)}>${icons.reset}</button>`}</div>
-      ${isLost && !state.real.value ? html`<div class="lost" role="status"><span>${t.lost}</span><button class="small" @click=${() => void this.back(number)}>${t.back}</button></div>` : nothing}`;
+      ${isLost || state.real.value ? nothing : html`<button class="icon-button" aria-label=${t.back} title=${t.back} @click=${() => void this.back(number)}>${icons.reset}</button>`}
+      ${progress.idle ? html`<p class="lost" role="status">${t.idle}</p>` : nothing}
+      ${isLost && !state.real.value ? html`<div class="lost" role="status"><span>${t.lost}</span><button class="small" @click=${() => void this.back(number)}>${t.back}</button></div>` : nothing}</div>`;
   }
 
   protected override render() {

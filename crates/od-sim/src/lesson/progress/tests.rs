@@ -112,7 +112,14 @@ fn conditions_hold_when_they_should() {
         ("value 1017h in 400..600", "sdo write 1017h = 500", true),
         ("value 1017h > 500", "sdo write 1017h = 500", false),
         ("value 1017h >= 500", "sdo write 1017h = 500", true),
-        ("value 1008h = \"GXMM\"", "wait 0ms", false),
+        // It holds at the start, and waits for an action.
+        (
+            "value 1008h = \"GXMM\"",
+            "wait 1s\nexpect node-id = 5\nskip",
+            false,
+        ),
+        ("value 1008h = \"GXMM\"", "sync", true),
+        ("value 1008h = \"GXMM\"", "random sync", true),
         ("saved 1017h = 500", "sdo write 1017h = 500", false),
         (
             "saved 1017h = 500",
@@ -146,13 +153,7 @@ fn conditions_hold_when_they_should() {
             false,
         ),
     ] {
-        // A condition that already holds at the start.
-        let expected = holds || checkpoint.starts_with("value 1008h");
-        assert_eq!(
-            reaches(checkpoint, lines),
-            expected,
-            "{checkpoint}\n{lines}"
-        );
+        assert_eq!(reaches(checkpoint, lines), holds, "{checkpoint}\n{lines}");
     }
 }
 
@@ -219,6 +220,34 @@ fn a_lesson_in_german_says_in_german_how_a_condition_stands() {
         german("failed, error status D"),
         "aufgegeben, Fehlerstatus D"
     );
+}
+
+#[test]
+fn what_holds_when_a_step_begins_is_already_so_until_it_changes() {
+    let (mut bench, mut progress) =
+        begin("value 1017h = 0\nled red off\nnot came abort\nsent sync");
+    let already = |bench: &mut Bench, progress: &mut Progress| {
+        let all = progress.requirements(&mut bench.bus);
+        let one = |one: &Requirement| (one.holds, one.already);
+        all.iter().map(one).collect::<Vec<_>>()
+    };
+    let (open, so, done) = ((false, false), (true, true), (true, false));
+    assert_eq!(already(&mut bench, &mut progress), [so, so, so, open]);
+    play("sdo write 1017h = 100", &mut bench, &mut progress);
+    assert_eq!(already(&mut bench, &mut progress), [open, so, so, open]);
+    play("sdo write 1017h = 0", &mut bench, &mut progress);
+    assert_eq!(already(&mut bench, &mut progress), [done, so, so, open]);
+}
+
+#[test]
+fn a_step_that_an_earlier_action_met_waits_for_an_action_of_its_own() {
+    let (mut bench, mut progress) = begin("came 705#7F 3 times every 100ms");
+    play("sdo write 1017h = 100", &mut bench, &mut progress);
+    progress.begin(0, &mut bench.bus);
+    play("wait 2s", &mut bench, &mut progress);
+    assert!(progress.is_idle() && !progress.is_done());
+    play("sdo write 1017h = 100", &mut bench, &mut progress);
+    assert!(progress.is_done());
 }
 
 #[test]
