@@ -21,7 +21,7 @@ export const cases = {
   used: (used) => `${used} ${used === 1 ? 'Probe' : 'Proben'} gemacht`,
   frames: (count) => `${count} ${count === 1 ? 'Frame' : 'Frames'}`,
   more: (count) => `und ${count} weitere`,
-  errorFrame: 'Fehlerframe',
+  errorFrame: 'Error-Frame',
   cause: 'Nenne die Ursache',
   name: 'Bewerten',
   nothing: 'Wähle zuerst eine Ursache.',
