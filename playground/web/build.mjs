@@ -38,6 +38,7 @@ await index();
 for (const name of ['icon.svg', 'manifest.webmanifest']) await cp(new URL(`src/${name}`, import.meta.url), new URL(name, out));
 for (const [name, path] of Object.entries(modules)) await cp(new URL(path, import.meta.url), new URL(name, out));
 await lessons();
+await help();
 for (const language of ['en', 'de']) await cp(new URL(`../cases/${language}.md`, import.meta.url), new URL(`cases.${language}.md`, out));
 if (watch) {
   await (await context(options)).watch();
@@ -94,6 +95,14 @@ async function lessons() {
     const lesson = (name) => parseLesson(texts[language].get(name) ?? texts.en.get(name)).lesson;
     await writeFile(new URL(`questions.${language}.json`, out), JSON.stringify(await questions(language, lesson)));
   }
+}
+
+/** How to write a lesson, for a reader of the page: the guides, and the example in them as a file to begin with. */
+async function help() {
+  const guides = new URL('../../crates/od-cli/', import.meta.url);
+  for (const name of ['LESSONS.md', 'SCRIPTS.md']) await cp(new URL(name, guides), new URL(name, out));
+  const [, sample] = /^````markdown\n([^]*?)^````$/m.exec(await readFile(new URL('LESSONS.md', guides), 'utf8'));
+  await writeFile(new URL('sample-lesson.md', out), sample);
 }
 
 /** The questions of `../questions`, each with title, answer and explanation of its lesson. */

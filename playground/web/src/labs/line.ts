@@ -76,9 +76,11 @@ class LineLab extends Lab {
     const top = Math.max(2 * (most ?? 100), cable.length);
     const isLate = cable.length > 0 && cable.roundTrip > cable.sampleTime;
     const isSlow = cable.length > 0 && cable.settling > cable.sampleTime;
+    // Without frames a wrong line shows nothing.
+    const isStill = [line, ...state.statuses.value].every((one) => one.transmitErrors === 0);
     const clock = cable.clocks[state.selectedNode.value + 1] ?? 0;
     return html`<section class="lab" aria-label=${t.title}>
-      <header><h3>${t.title}</h3><span class="spacer"></span><span class="num muted">${cable.rate} kbit/s</span></header>
+      <header><h3>${t.title}</h3><span class="spacer"></span><span class="muted">${t.rate} <span class="num">${cable.rate} kbit/s</span></span></header>
       <div class="sliders">
         ${this.slider(t.length, t.metres(cable.length), cable.length, [0, top, top > 1000 ? 100 : top > 100 ? 10 : 5], 'length')}
         ${this.slider(t.samplePoint, `${cable.samplePoint} %`, cable.samplePoint, [50, 95, 0.5], 'sample-point')}
@@ -88,7 +90,7 @@ class LineLab extends Lab {
       </div>
       ${this.counters()}
       ${this.bit(cable)}
-      <p class="note" role="status" data-tone=${isLate || isSlow ? 'error' : ''}>${cable.length ? t.verdict(isLate, isSlow, cable.longest) : t.bench} ${most ? t.table(cable.rate, most) : nothing} ${t.tolerance(cable.tolerance)}</p>
+      <p class="note" role="status" data-tone=${isLate || isSlow ? 'error' : ''}>${cable.length ? t.verdict(isLate, isSlow, cable.longest) : t.bench} ${most ? t.table(cable.rate, most) : nothing} ${t.tolerance(cable.tolerance)} ${(isLate || isSlow) && isStill ? t.traffic : nothing}</p>
     </section>`;
   }
 }

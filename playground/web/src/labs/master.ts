@@ -2,6 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
+import * as state from '../state';
 import type { MasterSlave, MasterState } from '../sim/api';
 import { askBus } from '../sim/link';
 import { Lab } from './lab';
@@ -39,7 +40,9 @@ class Master extends Lab {
     const orders = lines.map((line) => (/^\s*(#|$)/.test(line) ? '' : `master ${line.trim().replace(/^master\s+/, '')}`));
     const failed = await this.play(['master clear', ...orders, 'master boot']);
     const line = failed ? failed.line - 1 : 0;
-    this.wrong = failed ? (line > 0 && line <= lines.length ? L.master.line(line, failed.why) : failed.why) : '';
+    // A message quotes lines of a script; a line of the list is without the first word.
+    const why = failed?.why.replaceAll('`master ', '`') ?? '';
+    this.wrong = failed && line > 0 && line <= lines.length ? L.master.line(line, why) : why;
     if (!failed) this.draft = null;
   }
 
@@ -80,10 +83,11 @@ class Master extends Lab {
       <header><h3>${t.title}</h3><span class="spacer"></span>
         <button class="small primary" title=${t.bootTitle} @click=${() => void this.boot()}>${t.boot}</button>
         <button class="small" title=${t.clearTitle} @click=${() => void this.clear()}>${t.clear}</button></header>
-      <textarea class="num" rows="5" spellcheck="false" autocapitalize="off" aria-label=${t.list} placeholder=${t.hint} .value=${live(this.text)}
+      <textarea class="num" rows="5" spellcheck="false" autocapitalize="off" aria-label=${t.list} placeholder=${t.hint(state.nodeId.value)} .value=${live(this.text)}
         @input=${(event: Event) => { this.draft = (event.target as HTMLTextAreaElement).value; this.wrong = ''; }}></textarea>
       <p class="note" role="status" data-tone=${this.wrong ? 'error' : ''} ?hidden=${!this.wrong && !isChanged}>${this.wrong || t.changed}</p>
       <div class="charts" aria-live="polite">${this.known?.slaves.length ? this.known.slaves.map((slave) => this.chart(slave)) : html`<p class="note">${t.none}</p>`}</div>
+      <details ?open=${!this.known?.slaves.length}><summary>${t.guide}</summary><dl class="orders">${t.orders.map(([line, what]) => html`<dt class="num">${line}</dt><dd>${what}</dd>`)}</dl></details>
     </section>`;
   }
 }

@@ -170,6 +170,8 @@ class Lessons extends View {
             // The same file can be selected again after a correction.
             input.value = '';
           }}></label>
+        <p class="note">${t.write.hint}
+          <a download href="sample-lesson.md">${t.write.sample}</a>, <a download href="LESSONS.md">${t.write.lessons}</a>, <a download href="SCRIPTS.md">${t.write.scripts}</a></p>
 `);
   }
 }

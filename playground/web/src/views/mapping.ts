@@ -168,6 +168,7 @@ class Mapping extends View {
         </select>
         <span class="muted num">${pdo.cobId ? t.cobId(pdo.cobId.id.toString(16).toUpperCase(), pdo.cobId.valid) : ''}</span>
       </div>
+      ${pdo.transmits || !pdo.cobId ? nothing : html`<p class="note">${t.link(address(pdo.mapping - 0x200, 1))}</p>`}
       ${pdo.isFixed ? html`<p class="note mapping-fixed">${t.fixed}</p>` : nothing}
       <ol class="mapping-entries" aria-label=${t.entries}>
         ${this.entries.map((entry, i) => {

@@ -10,7 +10,7 @@ export const real = {
   markTitle: 'Diese Frames sind auf einem realen Bus. Klick führt zur Verbindung.',
   title: 'Mit einem realen Bus verbinden',
   connected: 'Realer Bus',
-  what: 'Diese Seite zeigt die Frames eines realen CAN-Busses. Der virtuelle Aufbau steht so lange und bleibt erhalten. Das Senden ist aus, bis du es einschaltest. Ohne Hardware schließ dieses Fenster: Der Aufbau dieser Seite braucht keine.',
+  what: 'Diese Seite zeigt die Frames eines realen CAN-Busses. Der virtuelle Aufbau ist in dieser Zeit angehalten und bleibt erhalten. Das Senden ist aus, bis du es einschaltest. Ohne Hardware schließ dieses Fenster: Der Aufbau dieser Seite braucht keine.',
   webSocket: 'odkit auf diesem Computer',
   address: 'Adresse',
   addressHint: 'odkit sim und odkit bridge geben sie aus, zum Beispiel: odkit bridge --link socketcan:can0 --link ws:127.0.0.1:29538',
