@@ -7,7 +7,7 @@ const micros = (nanos: number): string => (nanos < 10_000 ? `${Math.round(nanos)
 export const labs = {
   labs: 'Labore',
   close: (name) => `${name} schließen`,
-  failed: 'Das Labor konnte nicht geladen werden. Prüfe die Verbindung und öffne es noch einmal.',
+  failed: 'Das Labor konnte nicht geladen werden. Prüf die Verbindung und öffne es noch einmal.',
   master: {
     title: 'Master',
     summary: 'Ein kleiner NMT-Master, den du mit einer Liste programmierst. Er bootet seine Knoten nach CiA 302-2 und sagt, wo er warum angehalten hat.',

@@ -13,8 +13,8 @@ export const seeing = {
     close: (name) => `${name} schließen`,
   },
   busOff: {
-    page: 'Diese Seite ist bus-off: Zu viele ihrer Frames sind gescheitert, darum hat ihr CAN-Controller den Bus verlassen. Sie sendet und empfängt nichts. Behebe zuerst die Ursache (Bitrate, Abschlusswiderstände, ein Knoten mit derselben CAN-ID), dann starte ihn neu.',
-    node: 'Dieser Knoten ist bus-off: Er sendet und empfängt nichts. Ein CAN-Controller, der neu gestartet wird, nimmt nach 128 × 11 rezessiven Bits wieder teil; dieses Gerät wartet auf seine Versorgung. Behebe zuerst die Ursache (Bitrate, Abschlusswiderstände, ein Knoten mit derselben CAN-ID).',
+    page: 'Diese Seite ist Bus-off: Zu viele ihrer Frames sind gescheitert, darum hat ihr CAN-Controller den Bus verlassen. Sie sendet und empfängt nichts. Behebe zuerst die Ursache (Bitrate, Abschlusswiderstände, ein Knoten mit derselben CAN-ID), dann starte ihn neu.',
+    node: 'Dieser Knoten ist Bus-off: Er sendet und empfängt nichts. Ein CAN-Controller, der neu gestartet wird, nimmt nach 128 × 11 rezessiven Bits wieder teil; dieses Gerät wartet auf seine Versorgung. Behebe zuerst die Ursache (Bitrate, Abschlusswiderstände, ein Knoten mit derselben CAN-ID).',
     power: 'Aus- und einschalten',
   },
   nodes: {
@@ -111,7 +111,7 @@ export const seeing = {
     again: 'Erneut suchen',
     check: 'Prüfen',
     frames: 'Frames, die es zeigen',
-    gone: 'Die Aufzeichnung enthält dieses Frame nicht mehr.',
+    gone: 'Die Aufzeichnung enthält diesen Frame nicht mehr.',
   },
   ids: {
     columns: ['CAN-ID', 'Typ', 'Anzahl', 'Zyklus', 'Kürzester', 'Mittel', 'Längster', 'Jitter', 'Letzte Änderung', 'Daten', 'Bedeutung'],
