@@ -291,7 +291,9 @@ test('a lesson comes from an address; if it does not exist, an empty bench remai
 test('a step whose checks held before it began shows them as already so, and waits for an action of its own', async () => {
   const { page, faults, close } = await open({ hash: '#lesson=scaling' });
   const lesson = page.locator('od-lesson');
+  await lesson.getByRole('heading', { level: 3 }).waitFor();
   await sdo(page, '6002', '36000');
+  await becomes('the range', () => sdoNote(page), '6002h written');
   await sdo(page, '6001', '3600');
   await lesson.getByRole('button', { name: 'Continue' }).click();
   await lesson.getByText('a range of 36000 (already so)').waitFor();
@@ -430,6 +432,25 @@ test('a finished lesson offers the next one', async () => {
   // Before anything is diagnosed, no condition and no row names the cause.
   await becomes('error frames', async () => (await rows(page)).some((one) => one.tag === 'ERR'), true);
   for (const words of [await lesson.innerText(), ...(await rows(page)).map((one) => one.words)]) assert.doesNotMatch(words, /bit rate|250/);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test('the last lesson says where the final test is', async () => {
+  const { page, faults, close } = await open({ hash: '#lesson=gear' });
+  await page.evaluate(async () => {
+    const names = (await (await fetch('lessons.json')).json()).map(({ name }) => name).filter((name) => name !== 'gear');
+    localStorage.setItem('odkit.progress', JSON.stringify(Object.fromEntries(names.map((name) => [name, [1, 1, '2026-01-01']]))));
+  });
+  const lesson = page.locator('od-lesson');
+  for (let step = 1; step <= 3; step++) {
+    await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
+    await takeHints(lesson);
+    await lesson.getByRole('button', { name: 'Show me' }).click();
+    await lesson.getByText('What just happened').waitFor();
+    if (step < 3) await lesson.getByRole('button', { name: 'Continue' }).click();
+  }
+  await lesson.getByText('Every lesson is done. The final test is in the list of lessons.').waitFor();
   assert.deepEqual(faults, []);
   await close();
 });

@@ -88,6 +88,7 @@ export const dialogs = {
     foreign: 'The text of this lesson is in another language.',
     translate: 'Begin this step again in English',
     finished: 'You did it: every step of this lesson is done.',
+    allDone: 'Every lesson is done. The final test is in the list of lessons.',
     open: 'Open lessons from files',
     openHint: 'Or drop them or their folder anywhere on the page. They stay on this computer.',
     write: {
@@ -119,6 +120,7 @@ export const dialogs = {
       question: (number: number, all: number) => `Question ${number} of ${all}`,
       next: 'Next question',
       skip: 'I do not know it',
+      empty: 'Write a frame, or choose “I do not know it”.',
       sum: (right: number, all: number) => `${right} of ${all} answers are right.`,
       passed: 'You have passed.',
       failed: (needed: number) => `${needed} are needed. Look at the lessons below, and try again: the questions change.`,

@@ -61,7 +61,10 @@ class FinalTest extends View {
     event.preventDefault();
     const field = this.querySelector('input')!;
     const text = field.value.trim();
-    if (!text) return;
+    if (!text) {
+      this.note = D.lessons.test.empty;
+      return;
+    }
     const judged = await use('judgeAnswer', one.answer, text);
     if (!('value' in judged)) {
       this.note = D.lessons.noFrame;

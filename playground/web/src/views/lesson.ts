@@ -40,8 +40,8 @@ class LessonPanel extends View {
   /** The step that is shown: a completed step stays until the learner continues. */
   declare seen: number;
   declare hints: number;
-  /** The lesson after this one, when this one is done. */
-  declare upNext: Listed | null;
+  /** The lesson after this one, when this one is done; null if all are done. */
+  declare upNext: Listed | null | undefined;
   /** This lesson in the list; null if it is not a built-in one. */
   declare listed: Listed | null;
   /** A question of an earlier lesson. */
@@ -59,7 +59,7 @@ class LessonPanel extends View {
     super();
     this.seen = 0;
     this.hints = 0;
-    this.upNext = null;
+    this.upNext = undefined;
     this.listed = null;
     this.recall = null;
     this.short = new Map();
@@ -76,7 +76,7 @@ class LessonPanel extends View {
       void recalled(name).then((one) => (this.recall = one), () => (this.recall = null));
       this.hints = 0;
       this.isShown = false;
-      this.upNext = null;
+      this.upNext = undefined;
     });
     // A step that is done while another panel covers the lesson.
     let before = Infinity;
@@ -121,7 +121,7 @@ class LessonPanel extends View {
   private done(step: Step, isLast: boolean): TemplateResult {
     const t = D.lessons;
     return html`<div class="happened" role="status"><h4>${icons.tick} ${t.happened}</h4><div class="prose">${markdown(step.happened)}</div></div>
-      ${isLast ? html`<p class="lesson-end" role="status">${t.finished}</p>` : nothing}
+      ${isLast ? html`<p class="lesson-end" role="status">${t.finished}${this.upNext === null ? ` ${t.allDone}` : ''}</p>` : nothing}
       <details><summary>${t.asked}</summary><div class="prose">${markdown(step.text)}</div></details>`;
   }
 
@@ -196,7 +196,7 @@ class LessonPanel extends View {
     const { name } = state.lessonRun.value;
     // A resumed lesson has no name until its run is restored.
     if (name && !state.lessonOpening.value) reached(name, progress.step, all, this.isShown);
-    if (isDone && isLast && !this.upNext) void following(name).then((next) => (this.upNext = next));
+    if (isDone && isLast && this.upNext === undefined) void following(name).then((next) => (this.upNext = next));
     return html`
       <header class="panel-head">
         <h2>${lesson.title}</h2>

@@ -91,6 +91,7 @@ export const dialogs = {
     foreign: 'Der Text dieser Lektion ist in einer anderen Sprache.',
     translate: 'Diesen Schritt auf Deutsch neu beginnen',
     finished: 'Geschafft: Alle Schritte dieser Lektion sind erledigt.',
+    allDone: 'Alle Lektionen sind erledigt. Die Abschlussprüfung ist in der Liste der Lektionen.',
     open: 'Lektionen aus Dateien öffnen',
     openHint: 'Oder zieh sie oder ihren Ordner auf die Seite. Sie bleiben auf diesem Computer.',
     write: {
@@ -122,6 +123,7 @@ export const dialogs = {
       question: (number, all) => `Frage ${number} von ${all}`,
       next: 'Nächste Frage',
       skip: 'Ich weiß es nicht',
+      empty: 'Schreib einen Frame oder wähl „Ich weiß es nicht“.',
       sum: (right, all) => `${right} von ${all} Antworten sind richtig.`,
       passed: 'Du hast bestanden.',
       failed: (needed) => `${needed} sind nötig. Sieh dir die Lektionen unten an und versuch es noch einmal: Die Fragen werden neu gezogen.`,
