@@ -59,6 +59,10 @@ def campaign(
     exception has the same type without it. Without ``check`` a script fails by the ``expect`` that failed.
     ``progress`` shows a bar of tqdm.
     """
+    if chunk < 1:
+        raise ValueError(f"chunk is {chunk}; a chunk has 1 seed or more")
+    if not hasattr(seeds, "__len__"):
+        raise TypeError(f"seeds is {seeds!r}; write a range or a list, such as range(1000)")
     job = functools.partial(_chunk, scenario, start, check, shrink)
     chunks = [seeds[at : at + chunk] for at in range(0, len(seeds), chunk)]
     bar = None

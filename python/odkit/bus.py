@@ -110,6 +110,9 @@ class OdkitBus(BusABC):
         except (OSError, ValueError) as error:
             raise CanOperationError(str(error)) from None
 
+    def __repr__(self) -> str:
+        return f"<odkit.bus.OdkitBus {self.channel}>"
+
     def flush_tx_buffer(self) -> None:
         """Does nothing: every sent message is already on the line."""
 

@@ -1,6 +1,5 @@
 //! A bench: devices on a bus, and the controls beside it.
 
-use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -13,7 +12,7 @@ use pyo3::types::{PyBytes, PyList, PyString};
 use crate::device::Device;
 use crate::diagnose::{self, Incident};
 use crate::expect::expect;
-use crate::faults::Fault;
+use crate::faults::{Fault, write};
 use crate::party::Wait;
 use crate::pass::{End, pass};
 use crate::registry;
@@ -419,7 +418,7 @@ impl Bench {
             .extension()
             .map_or_else(String::new, |it| it.to_string_lossy().into_owned());
         let bytes = self.journal(py, &ending)?;
-        Ok(fs::write(path, bytes.as_bytes())?)
+        write(&path, bytes.as_bytes())
     }
 
     fn __repr__(&self) -> String {

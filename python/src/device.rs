@@ -9,7 +9,7 @@ use od_sim::VirtualDevice;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::faults::Fault;
+use crate::faults::{Fault, of_file, write};
 use crate::story;
 use crate::value::{from_python, to_python};
 use crate::wire::{Wire, finite, micros};
@@ -420,13 +420,14 @@ impl Device {
     /// Saves the bytes of the EEPROM to a file. Raises `OSError` if it cannot be written.
     fn save_eeprom(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let bytes = self.get_eeprom(py)?;
-        Ok(std::fs::write(path, bytes.as_bytes())?)
+        write(&path, bytes.as_bytes())
     }
 
     /// Loads the EEPROM from a file of `save_eeprom`; it takes effect at the next start. Raises
     /// `OSError` if the file cannot be read, `ValueError` if it is too long.
     fn load_eeprom(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        self.set_eeprom(py, std::fs::read(path)?)
+        let bytes = std::fs::read(&path).map_err(|error| of_file(&error, &path))?;
+        self.set_eeprom(py, bytes)
     }
 
     /// Cuts the power during the next save, when `after` more bytes have been written.

@@ -1,5 +1,8 @@
 //! Reasons of this package, as Python exceptions.
 
+use std::path::Path;
+use std::{fs, io};
+
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
@@ -52,4 +55,20 @@ impl From<Fault> for PyErr {
             Fault::Late(text) => PyTimeoutError::new_err(text),
         }
     }
+}
+
+/// Writes a file.
+///
+/// # Errors
+/// An `OSError` with the path.
+pub(crate) fn write(path: &Path, bytes: impl AsRef<[u8]>) -> PyResult<()> {
+    fs::write(path, bytes).map_err(|error| of_file(&error, path))
+}
+
+/// The exception of an error of the system about a file, as Python itself raises it: number, text and path.
+pub(crate) fn of_file(error: &io::Error, path: &Path) -> PyErr {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or_default();
+    let path = path.as_os_str().to_owned();
+    PyOSError::new_err((error.raw_os_error(), text.to_string(), path))
 }

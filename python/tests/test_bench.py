@@ -278,7 +278,7 @@ def test_a_seed_is_not_negative(bench):
 def test_everything_says_what_it_is(bench):
     with bench.bus() as bus, odkit.Client(bench) as client:
         conform = odkit.Conform(client, 1, "gxmm")
-        for one in (bench, bench.snapshot(), client, conform, client.node(1), bench.devices[0], bus._port):
+        for one in (bench, bench.snapshot(), client, conform, client.node(1), bench.devices[0], bus, bus._port):
             assert repr(one).startswith("<odkit.") and " at 0x" not in repr(one)
     assert repr(client) == "<odkit.Client closed>"
 

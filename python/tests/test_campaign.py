@@ -168,6 +168,15 @@ def test_a_campaign_finds_seeds_and_shrinks_their_scripts():
             all_have_power(odkit.Bench(odkit.play(failure.script)))
 
 
+def test_a_campaign_without_scenarios_is_refused():
+    for chunk in (0, -1):
+        with pytest.raises(ValueError, match=f"chunk is {chunk}; a chunk has 1 seed or more"):
+            list(odkit.campaign(shaky, range(40), "gxmm@1", chunk=chunk))
+    for seeds in (40, iter([1, 2])):
+        with pytest.raises(TypeError, match=r"write a range or a list, such as range\(1000\)"):
+            list(odkit.campaign(shaky, seeds, "gxmm@1"))
+
+
 def test_a_campaign_on_processes_is_that_of_one():
     with odkit.Bench("gxmm@1,eam_mt@2") as bench:
         bench.run(1)

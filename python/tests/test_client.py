@@ -1,5 +1,6 @@
 """`odkit.Client`: the other end of a bus."""
 
+import math
 import os
 import pathlib
 import signal
@@ -275,3 +276,29 @@ def test_a_client_of_asyncio():
 
     names, state = asyncio.run(main())
     assert names[0] == "GXMM" and state == "Pre-operational"
+
+
+@pytest.mark.parametrize("link", ["bench", "bus"])
+def test_a_cancelled_call_of_asyncio_ends(link):
+    """A wait without end would keep the thread, the next calls and the program."""
+    import asyncio
+
+    async def main():
+        bench = odkit.Bench("gxmm@1")
+        with can.Bus(interface="virtual", channel="no node") as bus:
+            client = odkit.AsyncClient(bench if link == "bench" else bus, timeout=0.05)
+            for wait in (client.run, client.emcy):
+                with pytest.raises(asyncio.TimeoutError):
+                    await asyncio.wait_for(wait(math.inf), 0.05)
+            # A call that waits for its turn does not begin.
+            endless, next_one = asyncio.ensure_future(client.run(math.inf)), asyncio.ensure_future(client.run(math.inf))
+            await asyncio.sleep(0.05)
+            next_one.cancel()
+            endless.cancel()
+            await asyncio.gather(endless, next_one, return_exceptions=True)
+            await client.run(0.01)
+            if link == "bench":
+                assert await client.upload(1, 0x1008) == b"GXMM"
+            await client.close()
+
+    asyncio.run(main())

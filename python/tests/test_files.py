@@ -1,5 +1,6 @@
 """Device descriptions: read, check, fix, convert, compare, overlays."""
 
+import errno
 import os
 import pathlib
 
@@ -116,6 +117,24 @@ def test_fix(tmp_path):
     assert odkit.fix(swapped, unsafe=True).edits > odkit.fix(swapped).edits
     with pytest.raises(ValueError, match="came from no file"):
         odkit.fix("[2000]\nParameterName=a\n").save()
+
+
+def test_a_file_that_cannot_be_written_or_read_is_named(tmp_path, gxmm):
+    path = tmp_path / "missing" / "a.log"
+    bench = odkit.Bench("gxmm@1")
+    actions = [
+        lambda: odkit.fix("gxmm").save(path),
+        lambda: gxmm.save(path),
+        lambda: odkit.convert(gxmm, "md", path),
+        lambda: bench.save_log(path),
+        lambda: bench["gxmm"].save_eeprom(path),
+        lambda: bench["gxmm"].load_eeprom(path),
+    ]
+    for action in actions:
+        with pytest.raises(FileNotFoundError) as raised:
+            action()
+        assert raised.value.filename == str(path) and raised.value.errno == errno.ENOENT
+        assert "os error" not in str(raised.value)
 
 
 def test_convert(tmp_path, gxmm):

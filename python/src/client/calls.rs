@@ -1,5 +1,6 @@
 //! A CANopen client.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{self, ThreadId};
 
@@ -37,6 +38,8 @@ pub(crate) struct Client {
     core: Mutex<Option<Core>>,
     /// The thread that uses the client.
     user: Mutex<Option<ThreadId>>,
+    /// Whether a call has to end.
+    stop: Arc<AtomicBool>,
 }
 
 impl Client {
@@ -96,10 +99,12 @@ impl Client {
     #[pyo3(signature = (link, *, timeout=1.0))]
     fn new(link: &Bound<'_, PyAny>, timeout: f64) -> PyResult<Self> {
         let timeout = seconds_of(timeout, "the time-out")?;
-        let core = Core::new(Line::open(link)?, timeout);
+        let stop = Arc::new(AtomicBool::new(false));
+        let core = Core::new(Line::open(link, &stop)?, timeout);
         Ok(Self {
             core: Mutex::new(Some(core)),
             user: Mutex::new(None),
+            stop,
         })
     }
 
@@ -110,6 +115,13 @@ impl Client {
     #[pyo3(signature = (*_error))]
     fn __exit__(&self, py: Python<'_>, _error: &Bound<'_, pyo3::types::PyTuple>) -> PyResult<()> {
         self.close(py)
+    }
+
+    /// Ends each call that waits, with `KeyboardInterrupt`, until `on` is `False`: for other threads, such as that of an
+    /// `odkit.AsyncClient`.
+    #[pyo3(signature = (on=true))]
+    fn interrupt(&self, on: bool) {
+        self.stop.store(on, Ordering::Relaxed);
     }
 
     /// Closes the link; a second call has no effect.

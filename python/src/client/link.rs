@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -22,12 +23,15 @@ use crate::pass::{NAP, look, sleep};
 /// Maximum wait before signals such as Ctrl-C are handled.
 const SLICE: Duration = Duration::from_millis(40);
 
+/// Says that a call has to end, also while it waits.
+pub(crate) type Stop = Arc<AtomicBool>;
+
 /// An open link.
 pub(crate) enum Line {
     Wire(OnWire),
     Bus(OnBus),
     /// A link by name; and the exception that Python raised during a wait.
-    Real(Box<dyn Link + Send>, Option<PyErr>),
+    Real(Box<dyn Link + Send>, Option<PyErr>, Stop),
 }
 
 impl Line {
@@ -35,25 +39,28 @@ impl Line {
     ///
     /// # Errors
     /// It cannot be opened.
-    pub(crate) fn open(link: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub(crate) fn open(link: &Bound<'_, PyAny>, stop: &Stop) -> PyResult<Self> {
         let py = link.py();
         if let Ok(bench) = link.cast::<Bench>() {
             let wire = Arc::clone(&bench.get().wire);
-            return Ok(Self::Wire(OnWire::new(py, wire)?));
+            return Ok(Self::Wire(OnWire::new(py, wire, Arc::clone(stop))?));
         }
         if let Ok(name) = link.extract::<String>() {
             if let Some(devices) = name.strip_prefix("bench:") {
                 let bench = py.get_type::<Bench>().call1((devices,))?;
-                return Self::open(&bench);
+                return Self::open(&bench, stop);
             }
-            return Ok(Self::Real(open_by_name(py, name)?, None));
+            return Ok(Self::Real(open_by_name(py, name)?, None, Arc::clone(stop)));
         }
         if let Ok(bench) = link.getattr("bench")
             && bench.is_instance_of::<Bench>()
         {
-            return Self::open(&bench);
+            return Self::open(&bench, stop);
         }
-        Ok(Self::Bus(OnBus::new(link.clone().unbind())))
+        Ok(Self::Bus(OnBus::new(
+            link.clone().unbind(),
+            Arc::clone(stop),
+        )))
     }
 
     /// The exception of a fault: the one that Python raised during the wait, if any.
@@ -61,7 +68,7 @@ impl Line {
         let own = match self {
             Self::Wire(one) => one.raised.take(),
             Self::Bus(one) => one.raised.take(),
-            Self::Real(_, error) => error.take(),
+            Self::Real(_, error, _) => error.take(),
         };
         own.unwrap_or_else(|| raised(fault))
     }
@@ -94,7 +101,7 @@ impl Link for Line {
         match self {
             Self::Wire(one) => one.now(),
             Self::Bus(one) => one.now(),
-            Self::Real(one, _) => one.now(),
+            Self::Real(one, ..) => one.now(),
         }
     }
 
@@ -102,7 +109,7 @@ impl Link for Line {
         match self {
             Self::Wire(one) => one.send(frame),
             Self::Bus(one) => one.send(frame),
-            Self::Real(one, error) => Python::attach(|py| {
+            Self::Real(one, error, _) => Python::attach(|py| {
                 one.begin_send(frame)?;
                 // It takes up to 2 s if the other side does not read.
                 while !py.detach(|| one.finish_send(one.now() + SLICE))? {
@@ -117,16 +124,19 @@ impl Link for Line {
     }
 
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
-        let (link, error) = match self {
+        let (link, error, stop) = match self {
             Self::Wire(one) => return one.receive(until),
             Self::Bus(one) => return one.receive(until),
-            Self::Real(link, error) => (link, error),
+            Self::Real(link, error, stop) => (link, error, stop),
         };
         Python::attach(|py| {
             loop {
                 // Also if frames come all the time.
                 if let Err(why) = look(py) {
                     *error = Some(why);
+                    return Err(Error::Interrupted);
+                }
+                if stop.load(Ordering::Relaxed) {
                     return Err(Error::Interrupted);
                 }
                 let slice = link.now() + SLICE;

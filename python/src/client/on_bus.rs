@@ -1,11 +1,14 @@
 //! A link over any bus of python-can.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
 use od_sim::journal::frame;
 use od_tools::Error;
 use od_tools::link::{Heard, Link};
 use od_wire::{Frame, Instant};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -15,15 +18,18 @@ const SLICE: f64 = 0.04;
 /// A bus of python-can, with the clock of the computer.
 pub(crate) struct OnBus {
     bus: Py<PyAny>,
+    /// Says that a call has to end.
+    stop: Arc<AtomicBool>,
     began: Clock,
     /// The exception that Python raised.
     pub(crate) raised: Option<PyErr>,
 }
 
 impl OnBus {
-    pub(crate) fn new(bus: Py<PyAny>) -> Self {
+    pub(crate) fn new(bus: Py<PyAny>, stop: Arc<AtomicBool>) -> Self {
         Self {
             bus,
+            stop,
             began: Clock::now(),
             raised: None,
         }
@@ -56,7 +62,7 @@ impl OnBus {
                 if self.now() >= until {
                     return Ok(None);
                 }
-                py.check_signals()?;
+                self.look(py)?;
                 continue;
             }
             let flag = |name: &str| message.getattr(name)?.is_truthy();
@@ -75,6 +81,15 @@ impl OnBus {
                 return Ok(Some(Heard { at, frame }));
             }
         }
+    }
+
+    /// Checks for signals, and for the end of the call.
+    fn look(&self, py: Python<'_>) -> PyResult<()> {
+        py.check_signals()?;
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(PyKeyboardInterrupt::new_err(()));
+        }
+        Ok(())
     }
 
     fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Error> {

@@ -1,11 +1,13 @@
 //! A link to a bus of a bench: waiting moves its time.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_sim::logs::What;
 use od_tools::Error;
 use od_tools::link::{Heard, Link};
 use od_wire::{Frame, Instant};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
 use crate::party::Wait;
@@ -16,19 +18,22 @@ use crate::wire::Wire;
 pub(crate) struct OnWire {
     pub(crate) wire: Arc<Wire>,
     id: u32,
+    /// Says that a call has to end.
+    stop: Arc<AtomicBool>,
     /// The exception that Python raised during the wait.
     pub(crate) raised: Option<PyErr>,
 }
 
 impl OnWire {
     /// Joins a bus.
-    pub(crate) fn new(py: Python<'_>, wire: Arc<Wire>) -> PyResult<Self> {
+    pub(crate) fn new(py: Python<'_>, wire: Arc<Wire>, stop: Arc<AtomicBool>) -> PyResult<Self> {
         let mut state = wire.enter(py)?;
         let id = state.listen(false);
         drop(state);
         Ok(Self {
             wire,
             id,
+            stop,
             raised: None,
         })
     }
@@ -53,8 +58,11 @@ impl OnWire {
             until: Some(until),
             ..Wait::default()
         };
-        let id = self.id;
+        let (id, stop) = (self.id, &self.stop);
         pass(py, &self.wire, wait, false, &mut |state| {
+            if stop.load(Ordering::Relaxed) {
+                return Err(PyKeyboardInterrupt::new_err(()));
+            }
             Ok(state.listener(id).is_none_or(|own| !own.queue.is_empty()))
         })?;
         Ok(())

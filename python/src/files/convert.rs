@@ -1,7 +1,6 @@
 //! Converts a description to another format.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_devices::text::datasheet;
@@ -11,7 +10,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::faults::Fault;
+use crate::faults::{Fault, write};
 use crate::files::description::read_of;
 
 const FORMS: [&str; 8] = ["eds", "dcf", "xdd", "md", "c", "canopennode", "dbc", "json"];
@@ -130,13 +129,13 @@ pub(crate) fn convert<'p>(
     }
     if files.is_empty() {
         if let Some(output) = output {
-            fs::write(output, &text)?;
+            write(&output, &text)?;
         }
         return text.into_bound_py_any(py);
     }
     if let Some(output) = output {
         for (name, text) in &files {
-            fs::write(output.with_file_name(name), text)?;
+            write(&output.with_file_name(name), text)?;
         }
     }
     files.into_bound_py_any(py)

@@ -1,7 +1,6 @@
 //! A device description: what `odkit.read` returns.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -9,7 +8,7 @@ use od_eds::is_xml;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
-use crate::faults::Fault;
+use crate::faults::{Fault, write};
 use crate::files::entry::Entry;
 use crate::files::finding::Finding;
 use crate::files::identity::Identity;
@@ -286,7 +285,7 @@ impl Description {
     /// Writes the text in UTF-8; base and overlay are joined. Raises `OSError` if it cannot be
     /// written.
     fn save(&self, path: PathBuf) -> PyResult<()> {
-        Ok(fs::write(path, self.text())?)
+        write(&path, self.text())
     }
 
     /// Pickles the text and its name, with the version of odkit.

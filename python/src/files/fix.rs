@@ -1,6 +1,5 @@
 //! Check and fix.
 
-use std::fs;
 use std::path::PathBuf;
 
 use od_eds::Document;
@@ -9,7 +8,7 @@ use od_eds::tools::{self, TOOLS, Tool};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 
-use crate::faults::Fault;
+use crate::faults::{Fault, write};
 use crate::files::description::source_of;
 use crate::files::finding::Finding;
 use crate::files::object::count;
@@ -118,7 +117,7 @@ impl Fixed {
     fn save(&self, path: Option<PathBuf>) -> PyResult<()> {
         let path = path.or_else(|| self.name.clone().map(PathBuf::from));
         let path = path.ok_or_else(|| Fault::value("the text came from no file; name a path"))?;
-        Ok(fs::write(path, self.document.bytes())?)
+        write(&path, self.document.bytes())
     }
 
     fn __repr__(&self) -> String {
