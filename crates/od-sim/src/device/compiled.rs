@@ -3,23 +3,37 @@
 use std::prelude::v1::*;
 
 use od_model::Dictionary;
-use od_runtime::{Device, NodeId, Profile};
+use od_runtime::{Application, Device, NodeId, Profile};
 
 use crate::device::VirtualDevice;
-use crate::device::behaviour::Behaviour;
+use crate::device::behaviour::{Behaviour, Behind};
 use crate::device::source::{Loaded, Source};
 
 impl VirtualDevice {
     /// A device with its dictionary and profile, and with a simulated encoder if it has a position (6004h).
-    /// A device with behaviour of its own is a [`DeviceKind`](od_runtime::kind::DeviceKind).
     ///
     /// `device` is the type that `object_dictionary!` made. Services that it switches off are off here, too.
     /// A device that does not know its dictionary does not compile.
     pub fn of<D: Device>(title: &str, device: D, node_id: NodeId) -> Self {
         let behaviour = Behaviour::of(dictionary::<D>());
+        Self::compiled(title, &device, node_id, behaviour)
+    }
+
+    /// A device as that of [`of`](Self::of), with this behaviour. The crates that `odkit new` makes call it.
+    pub fn with_application<D: Device>(
+        title: &str,
+        device: D,
+        node_id: NodeId,
+        application: impl Application + Clone + Send + 'static,
+    ) -> Self {
+        let behaviour = Behind::Own(Box::new(application)).into();
+        Self::compiled(title, &device, node_id, behaviour)
+    }
+
+    fn compiled<D: Device>(title: &str, device: &D, node_id: NodeId, behaviour: Behaviour) -> Self {
         let loaded = Loaded {
             source: Source::Compiled(dictionary::<D>()),
-            profile: profile(&device),
+            profile: profile(device),
         };
         Self::build(title.into(), loaded, node_id, behaviour)
     }
