@@ -87,6 +87,6 @@ pub mod outline {
     pub use crate::scan::section::{Text, TextSection};
     pub use crate::standards::cia301::{Specified, data_type, specified};
     pub use crate::standards::{
-        meaning, meaning_of_bytes, profile_name, profile_objects, profile_types,
+        meaning, meaning_of_bytes, meanings, profile_name, profile_objects, profile_types,
     };
 }

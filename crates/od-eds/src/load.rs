@@ -7,11 +7,12 @@ use crate::check::run;
 use crate::description::Description;
 use crate::document::{Document, is_xml};
 use crate::finding::{Finding, sort};
-use crate::log::Log;
+use crate::fix::Fix;
+use crate::log::{KEPT, Log};
 use crate::read::{modules, sorted};
 #[cfg(feature = "xdd")]
 use crate::rules::lists::W0216;
-use crate::rules::text::{i0111_not_ascii, w0112_encoding};
+use crate::rules::text::{i0111_not_ascii, w0112_encoding, w0122_control_character};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
 use crate::scan::section::TextSection;
@@ -121,8 +122,33 @@ fn encoded(document: &Document) -> Vec<Finding> {
     if let Some(at) = document.first_wrong() {
         found.push(w0112_encoding(lines::span(text, at), encoding));
     }
+    if !is_xml(text) {
+        let lines = lines::lines(text).filter(|line| line.text.len() <= lines::LONGEST);
+        found.extend(lines.filter_map(|line| controls(&line)).take(KEPT + 1));
+    }
     found
 }
+
+/// The finding about the control characters of a line. A tab is a blank, and 1Ah is the end of a file of DOS.
+fn controls(line: &lines::Line<'_>) -> Option<Finding> {
+    let is_wrong = |c: char| c.is_control() && !matches!(c, '\t' | '\u{1A}');
+    let found = line.text.matches(is_wrong).take(REMOVED + 1);
+    let found: Vec<&str> = found.collect();
+    let first = found.first()?;
+    let finding = w0122_control_character(line.span(first), first.chars().next()?);
+    let mut fix = Fix::unsafe_fix();
+    for c in &found {
+        fix = fix.replace(line.span(c), "");
+    }
+    Some(if found.len() <= REMOVED {
+        finding.fix(fix)
+    } else {
+        finding
+    })
+}
+
+/// Maximum number of control characters that a fix removes from a line; a line with more is no text.
+const REMOVED: usize = 16;
 
 /// A description, and the findings about its text.
 #[derive(Clone, PartialEq, Debug, Default)]

@@ -113,12 +113,29 @@ fn special(at: Address, number: Option<i128>) -> Option<String> {
     Some(match (at.index, at.sub) {
         (0x1000, 0) => match half {
             0 => "no device profile".into(),
-            profile => format!(
-                "device profile CiA {profile}, additional information {:04X}h",
-                number >> 16
-            ),
+            profile if number >> 16 == 0xFFFF => {
+                format!("device profile CiA {profile}, one of several logical devices")
+            }
+            profile => match meaning(Some(profile), 0x1000, 0, number.into()) {
+                Some(device) => format!("device profile CiA {profile}: {device}"),
+                None => format!(
+                    "device profile CiA {profile}, additional information {:04X}h",
+                    number >> 16
+                ),
+            },
         },
-        (0x1006, 0) => format!("{number} µs"),
+        (0x1006 | 0x1007, 0) => format!("{number} µs"),
+        (0x1015 | 0x102A, 0) => format!("inhibit time {}.{} ms", number / 10, number % 10),
+        (0x1018, 3) => format!("major revision {}, minor revision {half}", number >> 16),
+        (0x1019, 0) if number == 0 => "SYNC without a counter".into(),
+        (0x1020, 1) | (0x1F26 | 0x1F53, 1..) => format!("{number} days after 1 January 1984"),
+        (0x1020, 2) | (0x1F27 | 0x1F54, 1..) => {
+            let seconds = number / 1000;
+            let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
+            format!("{hours:02}:{minutes:02}:{:02} after midnight", seconds % 60)
+        }
+        (0x1F89, 0) if number == 0 => "the master waits for its slaves without a limit".into(),
+        (0x1F89, 0) => format!("{number} ms"),
         (0x100C | 0x1017, 0) if number == 0 => "off".into(),
         (0x100C | 0x1017, 0) => format!("{number} ms"),
         (0x1016, 1..) if number == 0 => "not used".into(),
@@ -134,7 +151,7 @@ fn special(at: Address, number: Option<i128>) -> Option<String> {
 }
 
 /// A transmission type of a PDO (CiA 301, chapter 7.5.2.37).
-fn transmission(index: u16, number: u32) -> Option<String> {
+pub(crate) fn transmission(index: u16, number: u32) -> Option<String> {
     let kind = TransmissionType::new(number.try_into().ok()?);
     let is_rpdo = index < 0x1800;
     Some(match (number, kind.cycle()) {
@@ -244,6 +261,29 @@ mod tests {
             (0x1800, 3, 105, "inhibit time 10.5 ms"),
             (0x1800, 5, 0, "event timer off"),
             (0x1016, 1, 0x0005_03E8, "heartbeat of node 5 within 1000 ms"),
+            (
+                0x1000,
+                0,
+                0x0002_0196,
+                "device profile CiA 406: multiturn encoder",
+            ),
+            (
+                0x1000,
+                0,
+                0xFFFF_0191,
+                "device profile CiA 401, one of several logical devices",
+            ),
+            (
+                0x1000,
+                0,
+                0x0007_01A0,
+                "device profile CiA 416, additional information 0007h",
+            ),
+            (0x1015, 0, 105, "inhibit time 10.5 ms"),
+            (0x1018, 3, 0x0001_0002, "major revision 1, minor revision 2"),
+            (0x1F26, 1, 366, "366 days after 1 January 1984"),
+            (0x1F27, 1, 45_296_000, "12:34:56 after midnight"),
+            (0x1F89, 0, 5000, "5000 ms"),
         ] {
             let address = Address::new(index, sub);
             assert_eq!(

@@ -62,6 +62,17 @@ pub(crate) fn at(elements: &[Element], offset: usize) -> Option<(&Element, Optio
     }
 }
 
+/// The name of the attribute whose value a field is.
+pub(crate) fn name<'a>(text: &'a str, field: &Field) -> &'a str {
+    let before = text.get(..field.value.start).unwrap_or_default();
+    let before = before.trim_end_matches(['"', '\'']).trim_end();
+    let before = before.trim_end_matches('=').trim_end();
+    let start = before.rfind(|c: char| !c.is_ascii_alphanumeric());
+    before
+        .get(start.map_or(0, |at| at + 1)..)
+        .unwrap_or_default()
+}
+
 /// The value of an attribute between its quotation marks, in a start tag.
 pub(crate) fn attribute(text: &str, tag: &Range<usize>, name: &str) -> Option<Range<usize>> {
     let own = text.get(tag.clone())?;

@@ -155,9 +155,7 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<u
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
         if value == same {
-            log.add(&rules::W0107, || {
-                w0107_duplicate_key(first.span, key, value)
-            })
+            log.add(&rules::W0107, || w0107_duplicate_key(first, key, value))
         } else {
             log.add(&rules::E0117, || {
                 e0117_duplicate_key_differs(first.span, key, value)

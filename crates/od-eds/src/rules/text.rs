@@ -33,6 +33,7 @@ table! {
     E0119 (example)
     W0120 (xdd)
     E0121 (xdd)
+    W0122
 }
 
 pub(crate) static W0101: Rule = Rule {
@@ -148,14 +149,20 @@ pub(crate) static W0107: Rule = Rule {
     title: "duplicate key",
     why: "Some tools stop at a second line with the same key. odkit uses the first.",
     source: "CiA 306-1, file format",
-    fixability: Fixability::Safe,
+    fixability: Fixability::Either,
     says: "duplicate key `{name}`",
     help: "remove `{name}={given}`{fix}",
     ..Rule::of("W0107")
 };
 
-pub(crate) fn w0107_duplicate_key(first: Span, key: &Text<'_>, value: &Text<'_>) -> Finding {
-    repeated(&W0107, first, key, value).fix(Fix::safe().remove_line(key.span))
+pub(crate) fn w0107_duplicate_key(first: &Text<'_>, key: &Text<'_>, value: &Text<'_>) -> Finding {
+    // A tool that distinguishes capital and small letters may only know the second key.
+    let fix = if first.value == key.value {
+        Fix::safe()
+    } else {
+        Fix::unsafe_fix()
+    };
+    repeated(&W0107, first.span, key, value).fix(fix.remove_line(key.span))
 }
 
 /// A finding about a second line of a key.
@@ -417,4 +424,18 @@ pub(crate) static E0121: Rule = Rule {
 pub(crate) fn e0121_capitals(given: &Spanned<String>, right: &str) -> Finding {
     let fix = Fix::safe().replace(given.span, right);
     E0121.given(given).fact("right", right).fix(fix)
+}
+
+pub(crate) static W0122: Rule = Rule {
+    title: "control character in the text",
+    why: "A terminal or a tool acts on the character instead of showing it, or stops at it. odkit keeps it in the file and shows it as a code.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Unsafe,
+    says: "control character {code:02X}h",
+    help: "remove the control characters of the line{fix}",
+    ..Rule::of("W0122")
+};
+
+pub(crate) fn w0122_control_character(at: Span, c: char) -> Finding {
+    W0122.at(at).fact("code", u32::from(c))
 }

@@ -30,9 +30,11 @@ enum What {
     Channels(&'static str),
     /// A unit of CiA 303-2.
     Unit,
+    /// Version of the profile and of the software.
+    Versions,
 }
 
-use What::{Bits, Channels, Patterns, Unit, Values};
+use What::{Bits, Channels, Patterns, Unit, Values, Versions};
 
 const fn row(profile: u16, first: u16, last: u16, subs: (u8, u8), what: What) -> Row {
     Row {
@@ -95,6 +97,7 @@ const INTERRUPTS: &[(i64, i64, &str)] =
     &[(0, 0, "interrupt disabled"), (1, 1, "interrupt enabled")];
 const TAKES: &str = "takes the error value";
 const SET: &str = "set by a write";
+const ON: &str = "on";
 
 /// The meanings, by profile.
 #[rustfmt::skip]
@@ -103,6 +106,8 @@ const TABLE: &[Row] = &[
         (0, "generic error"), (1, "current"), (2, "voltage"), (3, "temperature"), (4, "communication error"),
         (5, "device profile specific"), (7, "manufacturer-specific"),
     ])),
+    row(0, 0x1010, 0x1010, ALL, Bits(&[(0, "saves on command"), (1, "saves without a command")])),
+    row(0, 0x1011, 0x1011, ALL, Bits(&[(0, "restores on command")])),
     row(0, 0x1022, 0x1022, VAR, Values(FORMATS)),
     row(0, 0x1023, 0x1023, (2, 2), Values(COMMANDS)),
     row(0, 0x1024, 0x1024, VAR, Values(&[
@@ -134,6 +139,10 @@ const TABLE: &[Row] = &[
         (6, 6, "reset node"), (7, 7, "reset communication"), (127, 127, "Pre-operational"),
     ])),
     row(0, 0x1F83, 0x1F83, ALL, Values(&[(0, 0, "the node is not guarded"), (1, 1, "the node is guarded")])),
+    row(401, 0x1000, 0x1000, VAR, Bits(&[
+        (16, "digital inputs"), (17, "digital outputs"), (18, "analogue inputs"), (19, "analogue outputs"),
+    ])),
+    row(401, 0x6000, 0x6000, ALL, Channels(ON)),
     row(401, 0x6002, 0x6002, ALL, Channels("inverted")),
     row(401, 0x6003, 0x6003, ALL, Channels("filter enabled")),
     row(401, 0x6005, 0x6005, VAR, Values(&[(0, 0, "interrupts disabled"), (1, 1, "interrupts enabled")])),
@@ -143,12 +152,15 @@ const TABLE: &[Row] = &[
     row(401, 0x6050, 0x6057, ALL, Values(INTERRUPTS)),
     row(401, 0x6060, 0x6067, ALL, Values(INTERRUPTS)),
     row(401, 0x6070, 0x6077, ALL, Values(INTERRUPTS)),
+    row(401, 0x6100, 0x6100, ALL, Channels(ON)),
     row(401, 0x6102, 0x6102, ALL, Channels("inverted")),
     row(401, 0x6103, 0x6103, ALL, Channels("filter enabled")),
     row(401, 0x6106, 0x6108, ALL, Channels("interrupt enabled")),
+    row(401, 0x6120, 0x6120, ALL, Channels(ON)),
     row(401, 0x6122, 0x6122, ALL, Channels("inverted")),
     row(401, 0x6123, 0x6123, ALL, Channels("filter enabled")),
     row(401, 0x6126, 0x6128, ALL, Channels("interrupt enabled")),
+    row(401, 0x6200, 0x6200, ALL, Channels(ON)),
     row(401, 0x6202, 0x6202, ALL, Channels("inverted")),
     row(401, 0x6206, 0x6206, ALL, Channels(TAKES)),
     row(401, 0x6208, 0x6208, ALL, Channels(SET)),
@@ -157,9 +169,11 @@ const TABLE: &[Row] = &[
         (0, 0, "the output keeps its value after an error"), (1, 1, "the output takes the error value"),
     ])),
     row(401, 0x6270, 0x6277, ALL, Values(&[(0, 0, "the output is not set"), (1, 1, "the output is set")])),
+    row(401, 0x6300, 0x6300, ALL, Channels(ON)),
     row(401, 0x6302, 0x6302, ALL, Channels("inverted")),
     row(401, 0x6306, 0x6306, ALL, Channels(TAKES)),
     row(401, 0x6308, 0x6308, ALL, Channels(SET)),
+    row(401, 0x6320, 0x6320, ALL, Channels(ON)),
     row(401, 0x6322, 0x6322, ALL, Channels("inverted")),
     row(401, 0x6326, 0x6326, ALL, Channels(TAKES)),
     row(401, 0x6328, 0x6328, ALL, Channels(SET)),
@@ -174,6 +188,7 @@ const TABLE: &[Row] = &[
     ])),
     row(401, 0x6430, 0x6430, ALL, Unit),
     row(401, 0x6450, 0x6450, ALL, Unit),
+    row(402, 0x1000, 0x1000, VAR, Bits(&[(16, "frequency converter"), (17, "servo drive"), (18, "stepper motor")])),
     row(402, 0x6007, 0x6007, VAR, Values(&[
         (0, 0, "no action"), (1, 1, "fault"), (2, 2, "disable voltage"), (3, 3, "quick stop"),
     ])),
@@ -236,6 +251,10 @@ const TABLE: &[Row] = &[
     row(402, 0x60C0, 0x60C0, VAR, Values(&[
         (-32768, -1, "interpolation of the manufacturer"), (0, 0, "linear interpolation"),
     ])),
+    row(402, 0x60C2, 0x60C2, (2, 2), Values(&[
+        (0, 0, "in seconds"), (-1, -1, "in 0.1 s"), (-2, -2, "in 10 ms"), (-3, -3, "in milliseconds"),
+        (-4, -4, "in 0.1 ms"), (-5, -5, "in 10 µs"), (-6, -6, "in microseconds"),
+    ])),
     row(402, 0x60C4, 0x60C4, (3, 3), Values(&[(0, 0, "FIFO buffer"), (1, 1, "ring buffer")])),
     row(402, 0x60C4, 0x60C4, (6, 6), Values(&[(0, 0, "clear the buffer, no access"), (1, 1, "access to the buffer")])),
     row(402, 0x60FD, 0x60FD, VAR, Bits(&[
@@ -254,12 +273,16 @@ const TABLE: &[Row] = &[
         (6, "interpolated position"), (7, "cyclic synchronous position"), (8, "cyclic synchronous velocity"),
         (9, "cyclic synchronous torque"), (10, "cyclic synchronous torque with commutation angle"),
     ])),
+    row(404, 0x1000, 0x1000, VAR, Bits(&[(17, "analogue inputs"), (19, "analogue outputs")])),
     row(404, 0x6131, 0x6131, ALL, Unit),
     row(404, 0x6150, 0x6150, ALL, Bits(&[(0, "not valid"), (1, "positive overload"), (2, "negative overload")])),
     row(404, 0x61A0, 0x61A0, ALL, Values(&[
         (0, 0, "no filter"), (1, 1, "moving average"), (2, 2, "repeating average"),
     ])),
     row(404, 0x6301, 0x6301, ALL, Unit),
+    row(406, 0x1000, 0x1000, VAR, Patterns(&[
+        (0xFFFF_0000, 0x0001_0000, "singleturn encoder"), (0xFFFF_0000, 0x0002_0000, "multiturn encoder"),
+    ])),
     row(406, 0x6000, 0x6000, VAR, Bits(OPERATING)),
     row(406, 0x6300, 0x6300, ALL, Channels("cam active")),
     row(406, 0x6301, 0x6301, ALL, Channels("cam enabled")),
@@ -271,23 +294,13 @@ const TABLE: &[Row] = &[
         (0, "frequency exceeded"), (1, "light control reserve"), (2, "watchdog"), (3, "operating time limit"),
         (4, "battery charge"), (5, "reference point"),
     ])),
+    row(406, 0x6507, 0x6507, VAR, Versions),
 ];
 
 /// Returns the meaning of a value of an object in a device of this profile: `profile position` for
 /// 1 in 6060h of CiA 402. `None` if the documents give the number no meaning.
 pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option<String> {
-    let rows = TABLE.iter();
-    let found = rows
-        .filter(|row| row.profile == 0 || Some(row.profile) == profile)
-        .find(|row| {
-            // The objects of the second device of a module, and of the second axis, are 800h higher.
-            let own = match row.profile {
-                401 | 402 if index >= 0x6000 => 0x6000 + (index - 0x6000) % 0x800,
-                _ => index,
-            };
-            (row.first..=row.last).contains(&own) && (row.subs.0..=row.subs.1).contains(&sub)
-        })?;
-    match found.what {
+    match row_of(profile, index, sub)?.what {
         Values(values) => {
             let mut values = values.iter();
             let value = values.find(|(first, last, _)| (*first..=*last).contains(&number))?;
@@ -310,6 +323,38 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
             (!set.is_empty()).then(|| format!("{what}: {bits} {}", set.join(", ")))
         }
         Unit => unit(u32::try_from(number).ok()?),
+        Versions => {
+            let [low, high, software_low, software] = u32::try_from(number).ok()?.to_le_bytes();
+            Some(format!(
+                "profile {high}.{low}, software {software}.{software_low}"
+            ))
+        }
+    }
+}
+
+/// The row of an object in a device of this profile.
+fn row_of(profile: Option<u16>, index: u16, sub: u8) -> Option<&'static Row> {
+    let rows = TABLE.iter();
+    let mut own = rows.filter(|row| row.profile == 0 || Some(row.profile) == profile);
+    own.find(|row| {
+        // The objects of the second device of a module, and of the second axis, are 800h higher.
+        let own = match row.profile {
+            401 | 402 if index >= 0x6000 => 0x6000 + (index - 0x6000) % 0x800,
+            _ => index,
+        };
+        (row.first..=row.last).contains(&own) && (row.subs.0..=row.subs.1).contains(&sub)
+    })
+}
+
+/// The values of an object to which the documents give a meaning, in a device of this profile. Of a range of values with
+/// one meaning it has the first, and none below 0: those are the manufacturer's.
+pub fn meanings(profile: Option<u16>, index: u16, sub: u8) -> Vec<(i64, &'static str)> {
+    match row_of(profile, index, sub).map(|row| &row.what) {
+        Some(Values(values)) => {
+            let own = values.iter().filter(|(first, _, _)| *first >= 0);
+            own.map(|(first, _, says)| (*first, *says)).collect()
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -349,9 +394,11 @@ const PREFIXES: &[(i8, &str)] = &[
 #[rustfmt::skip]
 const UNITS: &[(u8, &str)] = &[
     (0x01, "m"), (0x02, "kg"), (0x03, "s"), (0x04, "A"), (0x05, "K"), (0x06, "mol"), (0x07, "cd"),
-    (0x10, "rad"), (0x20, "Hz"), (0x21, "N"), (0x22, "Pa"), (0x23, "J"), (0x24, "W"), (0x25, "C"),
+    (0x10, "rad"), (0x11, "sr"), (0x20, "Hz"), (0x21, "N"), (0x22, "Pa"), (0x23, "J"), (0x24, "W"), (0x25, "C"),
     (0x26, "V"), (0x27, "F"), (0x28, "Ω"), (0x29, "S"), (0x2A, "Wb"), (0x2B, "T"), (0x2C, "H"),
     (0x2D, "°C"), (0x2E, "lm"), (0x2F, "lx"), (0x41, "°"), (0x47, "min"), (0x48, "h"), (0x4E, "bar"),
+    // The units of acceleration and jerk of drives.
+    (0x57, "s²"), (0xA0, "s³"),
     (0xAB, "psi"), (0xAC, "°F"), (0xB4, "rev"), (0xB5, "inc"),
 ];
 
@@ -384,7 +431,7 @@ mod tests {
             for index in [row.first, row.last] {
                 let known = match row.profile {
                     0 => cia301::of(index).is_some(),
-                    profile => profile_name(profile, index).is_some(),
+                    profile => index == 0x1000 || profile_name(profile, index).is_some(),
                 };
                 assert!(known, "CiA {}: {index:04X}h", row.profile);
             }
@@ -469,6 +516,33 @@ mod tests {
             (402, 0x60A9, 0, 0x00B4_4700, Some("rev/min")),
             (402, 0x60A8, 0, 0xFA01_0000, Some("µm")),
             (404, 0x6131, 1, 0x00FE_0000, None),
+            (402, 0x60AA, 0, 0xFD01_5700, Some("mm/s²")),
+            (402, 0x60AB, 0, 0xFD01_A000, Some("mm/s³")),
+            (402, 0x60C2, 2, -3, Some("in milliseconds")),
+            (402, 0x60C2, 1, 1, None),
+            (
+                401,
+                0x1000,
+                0,
+                0x0003_0191,
+                Some("digital inputs, digital outputs"),
+            ),
+            (406, 0x1000, 0, 0x0002_0196, Some("multiturn encoder")),
+            (
+                406,
+                0x6507,
+                0,
+                0x0100_0302,
+                Some("profile 3.2, software 1.0"),
+            ),
+            (401, 0x6200, 1, 0x81, Some("on: bits 0, 7")),
+            (
+                401,
+                0x1010,
+                1,
+                3,
+                Some("saves on command, saves without a command"),
+            ),
         ] {
             let found = meaning(Some(profile), index, sub, number);
             assert_eq!(

@@ -18,7 +18,7 @@ use od_model::DataType;
 
 use crate::standards::row::Row;
 
-pub use crate::standards::meanings::{meaning, meaning_of_bytes};
+pub use crate::standards::meanings::{meaning, meaning_of_bytes, meanings};
 pub(crate) use crate::standards::row::Checked;
 
 /// The tables of a profile; none if odkit does not know it.

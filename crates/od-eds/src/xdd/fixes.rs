@@ -5,15 +5,27 @@ use alloc::string::String;
 
 use crate::fix::{Action, Edit, Fix};
 use crate::scan::number::number;
-use crate::xdd::objects::{ACCESS_TYPES, ACCESSES, MAPPINGS};
+use crate::xdd::objects::{ACCESS_TYPES, ACCESSES, ATTRIBUTES, MAPPINGS};
 
 /// Returns the fix in the form of CiA 311; `None` if one of its edits changes more than the value
-/// of an attribute.
+/// or the name of an attribute.
 pub(crate) fn in_xml(mut fix: Fix, text: &str) -> Option<Fix> {
     for edit in &mut fix.edits {
-        edit.text = value(edit, text)?;
+        if !is_name(edit, text) {
+            edit.text = value(edit, text)?;
+        }
     }
     Some(fix)
+}
+
+/// Returns whether an edit writes the name of an attribute in place of another name.
+fn is_name(edit: &Edit, text: &str) -> bool {
+    let before = text.get(..edit.span.start as usize).unwrap_or_default();
+    let behind = text.get(edit.span.end as usize..).unwrap_or_default();
+    edit.action == Action::Replace
+        && before.ends_with(char::is_whitespace)
+        && behind.trim_start().starts_with('=')
+        && ATTRIBUTES.contains(&edit.text.as_str())
 }
 
 /// The new value of the attribute whose whole value an edit replaces.

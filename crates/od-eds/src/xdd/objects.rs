@@ -7,11 +7,15 @@ use alloc::vec::Vec;
 use roxmltree::Node;
 
 use crate::rules::lists::reader::w0204_in_xdd;
+use crate::rules::structure::reader::w0318_attribute_misspelled;
 use crate::rules::text::{
     e0114_xdd_index_not_valid, e0115_xdd_parameter_missing, e0121_capitals,
     w0120_object_type_missing,
 };
-use crate::rules::values::reader::{e0429_access_of_parameter, w0406_in_xdd};
+use crate::rules::values::reader::{
+    e0429_access_of_parameter, w0406_in_xdd, w0430_other_direction,
+};
+use crate::scan::forms::near;
 use crate::scan::section::TextSection;
 use crate::span::{Span, Spanned};
 use crate::xdd::parameters::Parameter;
@@ -29,6 +33,7 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
     }
     for object in below(root, "CANopenObject") {
         let header = reader.tag(object);
+        known(object, reader);
         let Some(index) = hex(object, "index", 4, reader, header) else {
             continue;
         };
@@ -56,6 +61,7 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
         }
         for element in members {
             let header = reader.tag(element);
+            known(element, reader);
             let Some(sub) = hex(element, "subIndex", 2, reader, header) else {
                 continue;
             };
@@ -72,6 +78,37 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
         }
     }
     made
+}
+
+/// The attributes of an object or a sub-object.
+pub(super) const ATTRIBUTES: &[&str] = &[
+    "index",
+    "subIndex",
+    "name",
+    "objectType",
+    "dataType",
+    "accessType",
+    "lowLimit",
+    "highLimit",
+    "defaultValue",
+    "actualValue",
+    "denotation",
+    "PDOmapping",
+    "objFlags",
+    "uniqueIDRef",
+    "subNumber",
+];
+
+/// Reports attributes that are probably misspelled. Tools add attributes of their own.
+fn known(node: Node<'_, '_>, reader: &mut Reader<'_>) {
+    for given in node.attributes() {
+        let name = given.name();
+        let is_known = ATTRIBUTES.iter().any(|own| own.eq_ignore_ascii_case(name));
+        if !is_known && let Some(meant) = near(name, ATTRIBUTES.iter().copied()) {
+            let at = reader.name(&given);
+            reader.log.push(w0318_attribute_misspelled(at, name, meant));
+        }
+    }
 }
 
 /// Compares the counts of an object list with its objects.
@@ -298,6 +335,16 @@ fn access(
             None => Spanned::new("read".into(), header),
         })
     });
+    // A parameter without access may be used by a tool that means another one.
+    if let (Some(given), Some(mapping)) = (&given, &mapping)
+        && given.span != header
+        && matches!(
+            (given.as_str(), direction),
+            ("wo" | "write", "TPDO") | ("ro" | "read" | "const", "RPDO")
+        )
+    {
+        reader.log.push(w0430_other_direction(mapping, given));
+    }
     let of_eds = |given: &Spanned<String>| {
         match given.as_str() {
             "read" | "noAccess" => "ro",

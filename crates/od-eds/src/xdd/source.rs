@@ -5,7 +5,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use roxmltree::Node;
+use roxmltree::{Attribute, Node};
 
 use crate::log::Log;
 use crate::scan::section::TextSection;
@@ -112,6 +112,11 @@ impl<'a> Reader<'a> {
             .find(|a| a.name().eq_ignore_ascii_case(name))?;
         let span = self.places.span(found.range_value());
         Some(Spanned::new(one_line(found.value()), span))
+    }
+
+    /// The place of the name of an attribute.
+    pub(super) fn name(&self, attribute: &Attribute<'_, '_>) -> Span {
+        self.places.span(attribute.range_qname())
     }
 
     /// The text of an element, without blanks at its ends.

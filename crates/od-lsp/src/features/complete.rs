@@ -9,6 +9,7 @@ use crate::file::{File, Seen};
 use crate::keys;
 use crate::layout::{Layout, Section};
 use crate::types::{CompletionItem, CompletionList, Markup, TextEdit};
+use crate::xdd;
 
 mod sections;
 mod values;
@@ -60,18 +61,30 @@ pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> CompletionList {
         behind: file.part(offset.min(bytes.end)..bytes.end),
         offset,
     };
-    let items = match line.before.trim_start().as_bytes().first() {
-        Some(b';' | b'#') => Vec::new(),
-        Some(b'[') => header(&line, seen),
-        _ => match (line.before.find('='), seen.layout.section_at(bytes.start)) {
-            (Some(sign), Some(section)) => value(&line, seen, section, sign),
-            (None, Some(section)) => key(&line, &seen.layout, section),
-            (_, None) => Vec::new(),
-        },
+    let items = match xdd::at(&seen.elements, offset) {
+        Some((element, Some(field))) => {
+            let name = xdd::name(file.str(), field);
+            let choices = values::of_attribute(seen, element.place, name);
+            line.items(VALUE, choices, &field.value)
+        }
+        _ => in_eds(&line, seen, bytes.start),
     };
     CompletionList {
         is_incomplete: false,
         items,
+    }
+}
+
+/// The completions in a line of an EDS, which begins at this byte.
+fn in_eds(line: &Line<'_>, seen: &Seen, start: usize) -> Vec<CompletionItem> {
+    match line.before.trim_start().as_bytes().first() {
+        Some(b';' | b'#') => Vec::new(),
+        Some(b'[') => header(line, seen),
+        _ => match (line.before.find('='), seen.layout.section_at(start)) {
+            (Some(sign), Some(section)) => value(line, seen, section, sign),
+            (None, Some(section)) => key(line, &seen.layout, section),
+            (_, None) => Vec::new(),
+        },
     }
 }
 
@@ -204,7 +217,7 @@ fn value(line: &Line<'_>, seen: &Seen, section: &Section, sign: usize) -> Vec<Co
     let rest = outline::before_comment(line.behind);
     let end = line.offset + rest.trim_end().len();
     let choices = match section.place {
-        Place::Object(_) | Place::Member(..) => values::of_object(text, seen, section, key),
+        Place::Object(_) | Place::Member(..) => values::of_object(seen, section, key),
         Place::List(list) => listed(line.file.str(), seen, section, list),
         _ => {
             let name = text.get(section.name.clone()).unwrap_or_default();
@@ -215,11 +228,25 @@ fn value(line: &Line<'_>, seen: &Seen, section: &Section, sign: usize) -> Vec<Co
                     Choice::new("4.0", "CiA 306-1"),
                     Choice::new("3.0", "CiA 306"),
                 ],
+                Some(("Baudrate", _)) => bit_rates(text, &seen.layout),
                 _ => Vec::new(),
             }
         }
     };
     line.items(VALUE, choices, &(start..end))
+}
+
+/// The bit rates that [DeviceInfo] supports.
+fn bit_rates(text: &str, layout: &Layout) -> Vec<Choice> {
+    let name = |section: &&Section| text.get(section.name.clone()) == Some("DeviceInfo");
+    let info = layout.sections.iter().find(name);
+    let pairs = info.into_iter().flat_map(|info| &info.pairs);
+    let rates = pairs.filter_map(|pair| {
+        let rate = text.get(pair.key.clone())?.strip_prefix("BaudRate_")?;
+        let is_supported = text.get(pair.value.clone())?.trim() == "1";
+        is_supported.then(|| Choice::new(rate, "kbit/s"))
+    });
+    rates.collect()
 }
 
 /// The objects that a list lacks.

@@ -97,6 +97,33 @@ fn completion_offers_missing_items() {
 }
 
 #[test]
+fn completion_offers_values_with_a_meaning() {
+    let drive = |value: &str| {
+        format!(
+            "[DeviceInfo]\nBaudRate_125=1\nBaudRate_250=0\n[DeviceComissioning]\nBaudrate=\n\
+             [1000]\nDataType=7\nAccessType=ro\nDefaultValue=0x00020192\n\
+             [1800]\nObjectType=9\n[1800sub2]\nDataType=5\nDefaultValue=\n\
+             [6060]\nDataType=2\nAccessType=rw\nDefaultValue={value}\n"
+        )
+    };
+    let text = drive("");
+    let mut client = Client::with(&text);
+    let of = |client: &mut Client, mark: &str| {
+        let found = client.at("textDocument/completion", &text, mark);
+        labels(&found)
+            .into_iter()
+            .map(String::from)
+            .collect::<Vec<_>>()
+    };
+    let modes = of(&mut client, "AccessType=rw\nDefaultValue=|");
+    assert_eq!(modes[..3], ["0", "1", "2"]);
+    assert!(!modes.contains(&"5".into()), "5 is reserved");
+    let types = of(&mut client, "DataType=5\nDefaultValue=|");
+    assert_eq!(types, ["255", "254", "0", "1", "253", "252"]);
+    assert_eq!(of(&mut client, "Baudrate=|"), ["125"]);
+}
+
+#[test]
 fn jumps_between_objects_lists_mappings_and_cob_ids() {
     let mut client = Client::with(TEXT);
     let covered = |found: &Value| -> Vec<String> {

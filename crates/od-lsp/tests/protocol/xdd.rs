@@ -28,6 +28,29 @@ fn hover(client: &mut Client, text: &str, mark: &str) -> String {
 }
 
 #[test]
+fn completion_offers_the_words_of_an_attribute() {
+    let text = text();
+    let mut client = client(&text);
+    let mut of = |attribute: &str| {
+        let start = text.find("index=\"6000\"").unwrap();
+        let at = start + text[start..].find(attribute).unwrap() + attribute.len();
+        let mark = format!("{}|{}", &text[start..at], &text[at..at + 4]);
+        let params = json!({ "textDocument": { "uri": URI }, "position": place(&text, &mark) });
+        let found = client.request("textDocument/completion", params);
+        crate::support::labels(&found)
+            .into_iter()
+            .map(String::from)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        of(" PDOmapping=\""),
+        ["no", "default", "optional", "TPDO", "RPDO"]
+    );
+    assert!(of(" dataType=\"").contains(&"001B".into()));
+    assert_eq!(of(" objectType=\"")[..2], ["7", "8"]);
+}
+
+#[test]
 fn a_hover_explains_objects_and_attributes() {
     let text = text();
     let mut client = client(&text);

@@ -1,10 +1,12 @@
 use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
+use crate::span::Spanned;
 
 pub(crate) static W0241: Rule = Rule {
     title: "Lines does not match [Comments]",
@@ -13,7 +15,7 @@ pub(crate) static W0241: Rule = Rule {
     fixability: Fixability::Safe,
     says: "Lines is {given}, but [Comments] has {lines:line|lines}",
     help: "write `Lines={lines}`{fix}",
-    also: &[MISSING],
+    also: &[MISSING, OTHER],
     check: Check::Device(check),
     ..Rule::of("W0241")
 };
@@ -22,6 +24,12 @@ pub(crate) static W0241: Rule = Rule {
 const MISSING: Form = Form {
     says: "[Comments] has {lines:line|lines}, but lacks Lines",
     ..Form::OWN
+};
+
+/// Sentence for a line outside the numbers that Lines gives.
+const OTHER: Form = Form {
+    says: "Lines is {lines}, so `{given}` is not read: the lines are Line1 to Line{lines}",
+    help: "number the lines from 1, without a gap",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
@@ -42,7 +50,17 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     });
     let name = section.name.span;
     let finding = match section.get("Lines") {
-        Some(given) if number(given) == Some(i128::from(lines)) => return,
+        Some(given) if number(given) == Some(i128::from(lines)) => {
+            let mut keys = section.pairs.iter().map(|(key, _)| key);
+            let is_other = |key: &&Spanned<String>| {
+                line(key).is_some_and(|number| !(1..=lines).contains(&number))
+            };
+            let Some(other) = keys.find(is_other) else {
+                return;
+            };
+            let finding = W0241.at(other.span).form(&OTHER);
+            finding.fact("given", other.as_str())
+        }
         // A tool that counts would lose a line with a higher number.
         Some(given) if highest > lines => W0241.at(given.span).fact("given", given.as_str()),
         Some(given) => W0241

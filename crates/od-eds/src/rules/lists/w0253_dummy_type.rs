@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Form, Rule};
 use od_model::DataType;
 
 pub(crate) static W0253: Rule = Rule {
@@ -10,8 +10,15 @@ pub(crate) static W0253: Rule = Rule {
     source: "CiA 306-1, DummyUsage; CiA 301, dummy mapping",
     says: "`{name}` does not name a data type with a fixed length",
     help: "remove the line; the dummy entries are `Dummy0001` to `Dummy0007`",
+    also: &[DIGITS],
     check: Check::Device(check),
     ..Rule::of("W0253")
+};
+
+/// Sentence for a data type that does not have four digits.
+const DIGITS: Form = Form {
+    says: "`{name}` does not have the four digits of a data type",
+    help: "write `Dummy{code:04X}`, or remove the line",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
@@ -21,7 +28,10 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let Ok(code) = u16::from_str_radix(digits, 16) else {
             continue;
         };
-        if DataType::from_code(code).and_then(DataType::bits).is_none() {
+        if digits.len() != 4 {
+            let finding = W0253.at(key.span).form(&DIGITS);
+            findings.push(finding.fact("name", key.as_str()).fact("code", code));
+        } else if DataType::from_code(code).and_then(DataType::bits).is_none() {
             findings.push(W0253.at(key.span).fact("name", key.as_str()));
         }
     }

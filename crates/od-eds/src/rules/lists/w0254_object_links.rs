@@ -1,15 +1,18 @@
+use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::scan::number::number;
 
 pub(crate) static W0254: Rule = Rule {
     title: "[XXXXObjectLinks] does not match its objects",
     why: "A tool that shows linked objects together misses one, or looks for an object that does not exist.",
     source: "CiA 306-1, object links",
+    fixability: Fixability::Unsafe,
     says: "ObjectLinks is {given}, but the section has {count:entry|entries}",
-    help: "write `ObjectLinks={count}`",
+    help: "write `ObjectLinks={count}`{fix}",
     also: &[TARGET, OWNER],
     check: Check::Device(check),
     ..Rule::of("W0254")
@@ -41,7 +44,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let given = section.get("ObjectLinks");
         if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
             let finding = W0254.at(given.span).fact("given", given.as_str());
-            findings.push(finding.fact("count", count));
+            let fix = Fix::unsafe_fix().replace(given.span, format!("{count}"));
+            findings.push(finding.fact("count", count).fix(fix));
         }
         for (_, target) in entries {
             let index = number(target).and_then(|index| u16::try_from(index).ok());

@@ -9,6 +9,7 @@ pub(super) use od_model::CobIdService as Service;
 
 use crate::description::{Description, Value};
 use crate::finding::{Finding, Rule};
+use crate::fix::Fix;
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_value};
 
@@ -56,6 +57,23 @@ impl CobId<'_> {
             Some(node) => node..=node,
             None => 1..=127,
         }
+    }
+
+    /// The number that CiA 301 adds to the node ID for this COB-ID: of EMCY and of the first four PDOs of each direction.
+    pub(super) fn predefined(&self) -> Option<u32> {
+        match (self.entry.address.index, self.entry.address.sub) {
+            (0x1014, 0) => Some(0x80),
+            (index @ 0x1400..=0x1403, 1) => Some(0x200 + 0x100 * u32::from(index - 0x1400)),
+            (index @ 0x1800..=0x1803, 1) => Some(0x180 + 0x100 * u32::from(index - 0x1800)),
+            _ => None,
+        }
+    }
+
+    /// The fix that writes the predefined COB-ID with the flags of this one.
+    pub(super) fn fix(&self) -> Option<Fix> {
+        let value = self.predefined()? | self.value & 0xC000_0000;
+        let fix = Fix::unsafe_fix();
+        Some(fix.replace(self.span, format!("$NODEID+0x{value:X}")))
     }
 
     /// The CAN-ID of a device with this node ID.

@@ -1,15 +1,16 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::rules::pdo::cob_ids::cob_ids;
 
 pub(crate) static I0531: Rule = Rule {
     title: "COB-ID does not depend on the node ID",
     why: "Two such devices in one network use the same CAN-ID. The COB-IDs of EMCY and of the first four PDOs usually contain $NODEID.",
     source: "CiA 301, predefined connection set",
+    fixability: Fixability::Unsafe,
     says: "COB-ID {id:03X}h does not depend on the node ID",
-    help: "write `$NODEID+0x{base:X}` to give each node its own COB-ID",
+    help: "write `$NODEID+0x{base:X}` to give each node its own COB-ID{fix}",
     check: Check::Device(check),
     ..Rule::of("I0531")
 };
@@ -26,12 +27,14 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             _ => false,
         };
         if !cob_id.formula && fixed && predefined && !cob_id.extended {
-            findings.push(
-                cob_id
-                    .finding(&I0531)
-                    .fact("id", id)
-                    .fact("base", id & 0x780),
-            );
+            let base = id & 0x780;
+            let finding = cob_id.finding(&I0531).fact("id", id).fact("base", base);
+            // Of another base only the author knows whether another PDO has it.
+            let fix = cob_id.fix().filter(|_| cob_id.predefined() == Some(base));
+            findings.push(match fix {
+                Some(fix) => finding.fix(fix),
+                None => finding,
+            });
         }
     }
 }

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, Service, cob_ids};
 use crate::subject::start_number;
 use od_model::Address;
@@ -11,8 +11,9 @@ pub(crate) static W0520: Rule = Rule {
     title: "CAN-ID is reserved for another service",
     why: "A message with a CAN-ID of NMT, SDO, error control or LSS disturbs that service in all devices of the network.",
     source: "CiA 301, restricted CAN-IDs",
+    fixability: Fixability::Unsafe,
     says: "CAN-ID {id} is one of {first:03X}h to {last:03X}h, which CiA 301 reserves for {service}",
-    help: "write a CAN-ID that CiA 301 leaves free, such as `0x181` to `0x57F` for PDOs",
+    help: "write a CAN-ID that CiA 301 leaves free, such as `0x181` to `0x57F` for PDOs{fix}",
     also: &[WITHOUT_NODE_ID, NMT, SDO, SERVICE, SOME],
     check: Check::Device(check),
     ..Rule::of("W0520")
@@ -80,7 +81,10 @@ fn finding(cob_id: &CobId<'_>) -> Option<Finding> {
         .fact("last", *range.end());
     Some(match cob_id.identifier {
         0x180 if !cob_id.formula => finding.form(&WITHOUT_NODE_ID).fact("value", cob_id.value),
-        _ if cob_id.is_pdo() => finding,
+        _ if cob_id.is_pdo() => match cob_id.fix() {
+            Some(fix) => finding.fix(fix),
+            None => finding,
+        },
         _ if matches!(cob_id.service, Service::SdoServer | Service::SdoClient) => {
             finding.form(&SDO)
         }

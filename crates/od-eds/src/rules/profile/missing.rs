@@ -6,7 +6,7 @@ use od_model::Address;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule, Severity, Severity::Error};
 use crate::rules::profile::shared::{Encoder, IO_BLOCKS, POSITIONS, device};
 use crate::subject::start_number;
 
@@ -39,8 +39,15 @@ pub(crate) static W0902: Rule = Rule {
     source: "CiA 402, object overview",
     says: "mandatory object {objects} ({what}) is missing",
     help: "add {missing}, or correct the profile number in bits 0 to 15 of 1000h",
+    also: &[NO_MODE],
     check: Check::Device(check_modes),
     ..Rule::of("W0902")
+};
+
+/// Sentence for a drive that supports no mode.
+const NO_MODE: Form = Form {
+    says: "{objects} ({what}) is 0, so the drive supports no mode",
+    help: "set the bit of each mode that the drive supports",
 };
 
 fn check_modes(description: &Description, findings: &mut Vec<Finding>) {
@@ -51,6 +58,14 @@ fn check_modes(description: &Description, findings: &mut Vec<Finding>) {
             &[0x6502],
             "supported drive modes",
         ));
+        let modes = start_number(description, Address::new(0x6502, 0));
+        if let Some(modes) = modes.filter(|modes| modes.value == 0) {
+            let finding = W0902.at(modes.span).about(Address::new(0x6502, 0));
+            let finding = finding.form(&NO_MODE).fact("what", "supported drive modes");
+            let finding = finding.fact("objects", Fact::Index(0x6502));
+            // The drive may fill it when it starts.
+            findings.push(finding.severity_of(Severity::Info));
+        }
     }
 }
 
@@ -61,8 +76,15 @@ pub(crate) static E0908: Rule = Rule {
     source: "CiA 402, object overview",
     says: "mandatory object {objects} ({what}) is missing",
     help: "add {missing}, or correct the profile number in bits 0 to 15 of 1000h",
+    also: &[AXIS],
     check: Check::Device(check_control),
     ..Rule::of("E0908")
+};
+
+/// Sentence for a further axis that has one of the two.
+const AXIS: Form = Form {
+    says: "axis {axis} has {other}, but mandatory object {object} ({what}) is missing",
+    help: "add {missing}, or remove the axis",
 };
 
 /// Objects that control a drive, with their names. A device of several axes has them 800h apart.
@@ -73,7 +95,26 @@ fn check_control(description: &Description, findings: &mut Vec<Finding>) {
         let objects = CONTROL.iter();
         findings
             .extend(objects.filter_map(|(index, what)| need(&E0908, description, &[*index], what)));
+        (1..8).for_each(|axis| findings.extend(half_axis(description, axis)));
     }
+}
+
+/// Reports a further axis, counted from 1, that has its control or its status only.
+fn half_axis(description: &Description, axis: u16) -> Option<Finding> {
+    let [control, status] = CONTROL.map(|(index, what)| {
+        let index = index + 0x800 * axis;
+        (index, description.objects.get(&index), what)
+    });
+    let (other, own, index, what) = match (control, status) {
+        ((other, Some(own), _), (index, None, what)) => (other, own, index, what),
+        ((index, None, what), (other, Some(own), _)) => (other, own, index, what),
+        _ => return None,
+    };
+    let finding = E0908.at(own.span).about(Address::new(other, 0)).form(&AXIS);
+    let finding = finding.fact("axis", axis + 1).fact("what", what);
+    let finding = finding.fact("other", Fact::Index(other));
+    let finding = finding.fact("object", Fact::Index(index));
+    Some(finding.fact("missing", Fact::Section(index, None)))
 }
 
 pub(crate) static W0903: Rule = Rule {

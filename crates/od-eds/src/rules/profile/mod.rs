@@ -23,6 +23,9 @@ catalogue! {
     w0918_drive_mode_not_displayed W0918
     w0919_drive_mode_fixed W0919
     w0920_scaling_points_equal W0920
+    w0921_chosen_object_missing W0921
+    w0922_profile_not_declared W0922
+    w0923_homing_method_not_supported W0923
     overview W0950
     overview W0951
     w0952_encoder_range W0952
@@ -37,6 +40,7 @@ catalogue! {
     overview E0961
     w0962_encoder_type_unknown W0962
     w0963_position_not_mapped W0963
+    w0964_serial_number_differs W0964
 }
 
 pub(crate) mod e0916_drive_sub_object_missing;
@@ -53,6 +57,9 @@ pub(crate) mod w0917_drive_value_outside_limits;
 pub(crate) mod w0918_drive_mode_not_displayed;
 pub(crate) mod w0919_drive_mode_fixed;
 pub(crate) mod w0920_scaling_points_equal;
+pub(crate) mod w0921_chosen_object_missing;
+pub(crate) mod w0922_profile_not_declared;
+pub(crate) mod w0923_homing_method_not_supported;
 pub(crate) mod w0952_encoder_range;
 pub(crate) mod w0953_position_not_mappable;
 pub(crate) mod w0954_operating_status;
@@ -64,3 +71,4 @@ pub(crate) mod w0959_alarm_not_supported;
 pub(crate) mod w0960_cams_incomplete;
 pub(crate) mod w0962_encoder_type_unknown;
 pub(crate) mod w0963_position_not_mapped;
+pub(crate) mod w0964_serial_number_differs;

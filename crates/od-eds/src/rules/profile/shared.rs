@@ -10,11 +10,16 @@ use crate::subject::{Object, start_number};
 /// The device type: the number of the profile, and 16 bits that the profile defines.
 #[derive(Clone, Copy)]
 pub(super) struct DeviceType {
-    profile: u16,
+    pub(super) profile: u16,
     additional: u16,
 }
 
 impl DeviceType {
+    /// Returns whether it is a module of several logical devices, each with a profile of its own.
+    pub(super) const fn is_several(self) -> bool {
+        self.additional == 0xFFFF
+    }
+
     /// Returns whether this bit of the upper half of 1000h is set; `None` if the upper half is FFFFh, that of a module
     /// of several logical devices (CiA 301, object 1000h).
     pub(super) const fn has(self, bit: u32) -> Option<bool> {
@@ -30,7 +35,8 @@ pub(super) fn device(description: &Description, profile: u16) -> Option<DeviceTy
     device_type(description).filter(|device| device.profile == profile)
 }
 
-fn device_type(description: &Description) -> Option<DeviceType> {
+/// The device type, whatever profile it declares.
+pub(super) fn device_type(description: &Description) -> Option<DeviceType> {
     let number = start_number(description, Address::new(0x1000, 0))?;
     let number = u32::try_from(number.value).ok()?;
     let [a, b, c, d] = number.to_le_bytes();

@@ -1,8 +1,10 @@
+use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::{IO_BLOCKS, device};
 use crate::subject::start_number;
 use od_model::Address;
@@ -11,8 +13,9 @@ pub(crate) static W0913: Rule = Rule {
     title: "1000h does not declare the channels of an I/O module",
     why: "A master that reads from 1000h which channels exist does not use them.",
     source: "CiA 401, object 1000h",
+    fixability: Fixability::Unsafe,
     says: "bit {bit} of 1000h ({what}) is 0, but object {object} exists",
-    help: "set bit {bit} of 1000h",
+    help: "set bit {bit} of 1000h{fix}",
     check: Check::Device(check),
     ..Rule::of("W0913")
 };
@@ -31,6 +34,9 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         if let Some(index) = found {
             let finding = W0913.at(number.span).about(address).fact("bit", bit + 16);
             let finding = finding.fact("what", *what);
+            let value = number.value | 1 << (bit + 16);
+            let fix = Fix::unsafe_fix().replace(number.span, format!("0x{value:08X}"));
+            let finding = finding.fix(fix);
             findings.push(finding.fact("object", Fact::Index(*index)));
         }
     }

@@ -44,9 +44,9 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
         }
         (0x60C2, 2) => (402, number > 63, "64 to 127"),
         (0x6502, 0) => (402, number & 0xF810 != 0, "bits 4 and 11 to 15"),
-        (0x6430 | 0x6450, 1..=254) => (401, !is_prefix(number), PREFIX),
-        (0x60A8..=0x60AB, 0) => (402, !is_prefix(number), PREFIX),
-        (0x6131 | 0x6301, 1..=254) => (404, !is_prefix(number), PREFIX),
+        (0x6430 | 0x6450, 1..=254) => return Some((401, reserved_of_unit(number)?)),
+        (0x60A8..=0x60AB, 0) => return Some((402, reserved_of_unit(number)?)),
+        (0x6131 | 0x6301, 1..=254) => return Some((404, reserved_of_unit(number)?)),
         (0x6000, 0) => (406, number & 0x0FF0 != 0, "bits 4 to 11"),
         (0x6503 | 0x6504, 0) => (406, number & 0x0FFC != 0, "bits 2 to 11"),
         (0x6505 | 0x6506, 0) => (406, number & 0x0FC0 != 0, "bits 6 to 11"),
@@ -55,12 +55,20 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
     wrong.then_some((profile, what))
 }
 
-/// Powers of ten of a unit that no prefix has.
-const PREFIX: &str = "bits 24 to 31 below -18 or above 18";
-
-/// Returns whether bits 24 to 31 of a unit are a power of ten that has a prefix.
-fn is_prefix(number: i128) -> bool {
-    (-18..=18).contains(&((number >> 24) as i8))
+/// The part of a unit that is reserved (CiA 303-2): a power of ten without a prefix, a number in the rest of the tables of base
+/// units and of angles, the lowest byte.
+fn reserved_of_unit(number: i128) -> Option<&'static str> {
+    let [rest, denominator, numerator, prefix] = u32::try_from(number).ok()?.to_le_bytes();
+    let is_reserved = |unit| matches!(unit, 0x08..=0x0F | 0x12..=0x1F);
+    if !(-18..=18).contains(&(prefix as i8)) {
+        Some("bits 24 to 31 below -18 or above 18")
+    } else if is_reserved(numerator) || is_reserved(denominator) {
+        Some("the units 08h to 0Fh and 12h to 1Fh")
+    } else if rest != 0 {
+        Some("bits 0 to 7")
+    } else {
+        None
+    }
 }
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,22 +1,32 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::description::Value;
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::profile::shared::device;
-use crate::subject::{Entry, start_number};
+use crate::subject::{Entry, start_number, start_value};
 use od_model::Address;
 
 pub(crate) static W0915: Rule = Rule {
-    title: "value that positions are divided by is 0",
-    why: "A device that follows the profile aborts a download of 0, and a master that scales positions divides by it.",
-    source: "CiA 402, objects 608Fh to 6092h; CiA 406, objects 6001h and 6501h",
+    title: "value that scales is 0",
+    why: "A device that follows the profile aborts a download of 0, and a master that scales positions divides by it. With a factor of 0 each scaled value is the same.",
+    source: "CiA 401, objects 642Fh to 6447h; CiA 402, objects 608Fh to 6092h; CiA 404, object 6126h; CiA 406, objects 6001h and 6501h",
     says: "{object} is 0, but positions are divided by it",
     help: "write the number of increments or revolutions, 1 or more",
+    also: &[FACTOR],
     check: Check::Entry(check),
     ..Rule::of("W0915")
 };
 
+/// Sentence for a factor.
+const FACTOR: Form = Form {
+    says: "{object} is 0, but it is the factor of each value of the channel",
+    help: "write the factor; 1 changes no value",
+};
+
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let profile = match (entry.address.index, entry.address.sub) {
+        (0x642F | 0x6432 | 0x6442 | 0x6447, 1..=254) => return factor(entry, 401, findings),
+        (0x6126, 1..=254) => return factor(entry, 404, findings),
         (0x608F..=0x6092, 1 | 2) => 402,
         (0x6001 | 0x6002 | 0x6501, 0) => 406,
         _ => return,
@@ -27,6 +37,17 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && (entry.address.index != 0x6002 || scales(entry))
     {
         findings.push(W0915.on(entry, number.span).fact("object", entry.shown()));
+    }
+}
+
+fn factor(entry: &Entry<'_>, profile: u16, findings: &mut Vec<Finding>) {
+    let value = start_value(entry.entry);
+    let is_0 = |value: &Value| matches!(value, Value::Real(0.0)) || value.integer(0) == Some(0);
+    if let Some(value) = value.filter(|value| is_0(value))
+        && device(entry.description, profile).is_some()
+    {
+        let finding = W0915.on(entry, value.span).form(&FACTOR);
+        findings.push(finding.fact("object", entry.shown()));
     }
 }
 

@@ -3,7 +3,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 use crate::span::Spanned;
@@ -12,8 +13,9 @@ pub(crate) static W0638: Rule = Rule {
     title: "bit rate in use is not valid",
     why: "A configuration tool cannot set the bit rate of a DCF, and the device cannot start with that of an XDD. CiA 301 defines the bit rates, and [DeviceInfo] gives those of the device.",
     source: "CiA 306-1, DeviceComissioning; CiA 311, baudRate",
+    fixability: Fixability::Unsafe,
     says: "Baudrate `{given}` is not valid",
-    help: "write 10, 20, 50, 125, 250, 500, 800 or 1000 (kbit/s)",
+    help: "write 10, 20, 50, 125, 250, 500, 800 or 1000 (kbit/s){fix}",
     also: &[LACKS, DEFAULT],
     check: Check::Device(check),
     ..Rule::of("W0638")
@@ -22,7 +24,7 @@ pub(crate) static W0638: Rule = Rule {
 /// Sentence for a bit rate that the device does not support.
 const LACKS: Form = Form {
     says: "Baudrate is {given}, but BaudRate_{given} in [DeviceInfo] is 0",
-    help: "write a bit rate that the device supports",
+    help: "write a bit rate that the device supports{fix}",
 };
 
 /// Sentence for the default bit rate of an XDD.
@@ -47,6 +49,13 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         return;
     }
     let finding = W0638.at(given.span).fact("given", given.as_str());
+    let nearest = supported(description)
+        .into_iter()
+        .min_by_key(|own| own.abs_diff(rate));
+    let finding = match nearest {
+        Some(own) => finding.fix(Fix::unsafe_fix().replace(given.span, format!("{own}"))),
+        None => finding,
+    };
     if !matches!(rate, 10 | 20 | 50 | 100 | 125 | 250 | 500 | 800 | 1000) {
         findings.push(finding);
         return;
@@ -56,4 +65,16 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     if own.is_some_and(|own| number(own) == Some(0)) {
         findings.push(finding.form(&LACKS));
     }
+}
+
+/// The bit rates in kbit/s that [DeviceInfo] gives; all of CiA 301 if it gives none.
+fn supported(description: &Description) -> Vec<i128> {
+    const RATES: [i128; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+    let info = description.section("DeviceInfo");
+    let has = |rate: &i128| {
+        let own = info.and_then(|info| info.get(&format!("BaudRate_{rate}")));
+        own.and_then(|own| number(own)) == Some(1)
+    };
+    let own: Vec<i128> = RATES.into_iter().filter(has).collect();
+    if own.is_empty() { RATES.into() } else { own }
 }

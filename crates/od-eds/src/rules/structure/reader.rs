@@ -198,8 +198,23 @@ pub(crate) static W0318: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "`{name}` is not a key of CiA 306 for this section",
     help: "write `{meant}={given}` if this key is meant{fix}",
+    also: &[W0318_XDD],
     ..Rule::of("W0318")
 };
+
+/// Sentence for an attribute of an XDD.
+const W0318_XDD: Form = Form {
+    says: "`{name}` is not an attribute of CiA 311 for this element",
+    help: "write `{meant}` if this attribute is meant{fix}",
+};
+
+/// The same finding about an attribute of an XDD.
+#[cfg(feature = "xdd")]
+pub(crate) fn w0318_attribute_misspelled(at: Span, given: &str, meant: &str) -> Finding {
+    let finding = W0318.at(at).form(&W0318_XDD).fact("name", given);
+    let finding = finding.fact("meant", meant);
+    finding.fix(Fix::unsafe_fix().replace(at, meant))
+}
 
 pub(crate) fn w0318_key_misspelled(key: &Text<'_>, value: &str, meant: &str) -> Finding {
     W0318
@@ -370,14 +385,16 @@ pub(crate) static W0342: Rule = Rule {
     title: "ObjFlags has reserved bits",
     why: "A tool may give reserved bits a meaning. Bit 0 excludes the object from downloads by a configuration tool, bit 1 from uploads.",
     source: "CiA 306-1, ObjFlags",
+    fixability: Fixability::Unsafe,
     says: "{ObjFlags} is 0x{flags:X}, but only bits 0 and 1 are defined",
-    help: "write a number from 0 to 3",
+    help: "write a number from 0 to 3{fix}",
     ..Rule::of("W0342")
 };
 
 pub(crate) fn w0342_obj_flags_reserved(given: &Text<'_>, flags: u32) -> Option<Finding> {
     let finding = W0342.at(given.span).key(Key::ObjFlags);
-    (flags & !3 != 0).then(|| finding.fact("flags", flags))
+    let fix = Fix::unsafe_fix().replace(given.span, format!("{}", flags & 3));
+    (flags & !3 != 0).then(|| finding.fact("flags", flags).fix(fix))
 }
 
 pub(crate) static E0353: Rule = Rule {

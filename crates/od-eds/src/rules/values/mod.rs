@@ -32,6 +32,7 @@ catalogue! {
     w0427_domain_with_number_type W0427
     reader E0428
     reader E0429 (xdd)
+    reader W0430 (xdd)
     w0445_access_without_mapping W0445
     w0446_text_not_ascii W0446
     i0447_no_pdo_direction I0447

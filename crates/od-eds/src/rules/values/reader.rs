@@ -173,6 +173,26 @@ pub(crate) fn e0429_access_of_parameter(given: &Spanned<String>, right: &'static
     finding.fact("right", right).fix(fix)
 }
 
+pub(crate) static W0430: Rule = Rule {
+    title: "PDOmapping contradicts accessType",
+    why: "A TPDO can only map a value that the device lets a master read, and an RPDO one that a master writes: no PDO can map the object.",
+    source: "CiA 311, PDOmapping and accessType",
+    says: "PDOmapping is `{given}`, but accessType is `{access}`",
+    help: "correct PDOmapping or accessType: a TPDO maps what can be read, an RPDO what can be written",
+    ..Rule::of("W0430")
+};
+
+/// The finding about an object of an XDD that can be mapped in a direction in which a master cannot use it.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn w0430_other_direction(
+    mapping: &Spanned<String>,
+    access: &Spanned<String>,
+) -> Finding {
+    let finding = W0430.given(mapping).key(Key::PdoMapping);
+    let finding = finding.fact("access", access.as_str());
+    finding.related(access.span, "accessType")
+}
+
 pub(crate) static W0456: Rule = Rule {
     title: "file of a value that is not a DOMAIN",
     why: "A configuration tool reads or writes files for objects of the type DOMAIN only: the value stays as it is.",
