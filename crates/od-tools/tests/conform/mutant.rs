@@ -299,6 +299,33 @@ impl Spoiled {
         }
     }
 
+    /// Returns whether the value of an expedited download is beyond the limits of the object.
+    fn is_beyond(&self, frame: &Frame) -> bool {
+        let [command, low, high, sub, rest @ ..] = *frame.bytes();
+        let device = &self.bench.0.devices()[0];
+        let address = od_model::Address::new(u16::from_le_bytes([low, high]), sub);
+        let Ok(entry) = device.dictionary().find(address) else {
+            return false;
+        };
+        let len = 4 - usize::from(command >> 2 & 3);
+        let mut bytes = [0; 4];
+        bytes[..len].copy_from_slice(&rest[..len]);
+        let value = i128::from(u32::from_le_bytes(bytes));
+        let unused = 128 - 8 * len as u32;
+        let is_signed = entry
+            .data_type
+            .integer_range()
+            .is_some_and(|(least, _)| least < 0);
+        let value = if is_signed {
+            value << unused >> unused
+        } else {
+            value
+        };
+        let node = device.node_id().raw();
+        let is_below = entry.low.integer(node).is_some_and(|low| value < low);
+        is_below || entry.high.integer(node).is_some_and(|high| value > high)
+    }
+
     /// Accepts an expedited download without an effect; returns its confirmation.
     fn shadow(&mut self, frame: &Frame) -> Frame {
         let [command, low, high, sub, rest @ ..] = *frame.bytes();
@@ -380,6 +407,8 @@ impl Link for Spoiled {
                 self.say(answer, at);
                 self.bench.send(frame)
             }
+            // The device itself refuses a value beyond its limits.
+            Some(Deed::Shadow) if self.is_beyond(frame) => self.bench.send(frame),
             Some(Deed::Shadow) => {
                 let answer = self.shadow(frame);
                 self.say(answer, at);

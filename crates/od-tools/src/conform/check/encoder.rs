@@ -91,8 +91,11 @@ pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
     } else {
         before as u32 + 100
     };
+    let offset = dut.eds.has(0x6509).then_some(0x6509);
+    let offset_before = offset.map(|index| dut.number(index, 0)).transpose()?;
     dut.write(PRESET, &value.to_le_bytes())?;
     let is = dut.number(0x6004, 0)?;
+    let offset_after = offset.map(|index| dut.number(index, 0)).transpose()?;
     let off = is.abs_diff(value.into());
     let off = off.min(range.wrapping_sub(off));
     // Restores the position in two steps: first the preset value that gives the earlier position,
@@ -106,7 +109,27 @@ pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
         off <= 16,
         format!("6004h = {value}, the preset value"),
         format!("{is} was read"),
+    )?;
+    ensure(
+        offset.is_none() || u64::from(value) == before || offset_before != offset_after,
+        format!(
+            "another offset in 6509h, as the position was {before} and the preset value is {value}"
+        ),
+        format!("{} was read", offset_after.unwrap_or(0)),
     )
+}
+
+/// 6200h is the event timer of the first TPDO.
+pub(super) fn cyclic_timer(dut: &mut Dut<'_>) -> Checked {
+    let pdo = super::transmit::first(dut)?;
+    if pdo.com != 0x1800 {
+        return lacks("TPDO1 is off");
+    }
+    super::transmit::event_driven(dut, &pdo)?;
+    dut.set(Address::new(0x6200, 0), &60u16.to_le_bytes())?;
+    let shown = "every 60 ms, as 6200h says, 10 % off at most";
+    let is_right = |gap: u64, slack: u64| gap.abs_diff(60_000) <= 6_000 + slack;
+    super::transmit::gaps(dut, &pdo, 4, is_right, shown)
 }
 
 /// Bit 0 of 6000h reverses the code sequence: with a preset of 0 the position is mirrored.

@@ -158,6 +158,25 @@ pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     reports_silence(dut, node)
 }
 
+/// Heartbeats of another node do not replace those of the monitored one.
+pub(super) fn consumer_other_node(dut: &mut Dut<'_>) -> Checked {
+    let node = watch(dut, 200)?;
+    let other = if dut.node.raw() == 110 { 111 } else { 110 };
+    let from = dut.frames.len();
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    for _ in 0..20 {
+        beat(dut, other)?;
+        if emcy_since(dut, from, 0x8130, 50_000)?.is_some() {
+            return Ok(());
+        }
+    }
+    fail(
+        "EMCY 8130h within 1 s of the last heartbeat of the monitored node, while another node sends its own",
+        "none came",
+    )
+}
+
 /// The node monitors in Pre-operational, too.
 pub(super) fn consumer_pre_operational(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 200)?;

@@ -285,11 +285,20 @@ pub(super) fn node_id_range(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// The node ID that the node has.
+/// Another node ID and the one of the node: until a reset, the heartbeat has the node ID from before.
 pub(super) fn node_id(dut: &mut Dut<'_>) -> Checked {
+    let sees_state = match dut.follow_state() {
+        Ok(()) => true,
+        Err(End::NotApplicable(_)) => false,
+        Err(other) => return Err(other),
+    };
     with(dut, |dut, _| {
         let node_id = dut.node.raw();
-        answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0])
+        let other = if node_id == 100 { 101 } else { 100 };
+        answers(dut, Request::ConfigureNodeId { node_id: other }, &[0x11, 0])?;
+        let done = if sees_state { dut.is_in(4) } else { Ok(()) };
+        answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0])?;
+        done
     })
 }
 

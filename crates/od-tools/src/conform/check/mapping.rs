@@ -177,7 +177,7 @@ pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
     refuses_too_many(dut, pdo)
 }
 
-/// The PDO refuses 65 mapped objects.
+/// The PDO refuses 65 mapped objects, and more than its mapping has entries.
 pub(super) fn refuses_too_many(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
     on(dut, pdo, |dut, map| {
         let codes = [
@@ -189,7 +189,13 @@ pub(super) fn refuses_too_many(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
             NoObject,
             NoSubIndex,
         ];
-        dut.refuses_value(Address::new(map, 0), &[65], &codes)
+        let own = dut.eds.dictionary().entries();
+        let own = own.filter(|entry| entry.address.index == map);
+        let highest = own.map(|entry| entry.address.sub).max().unwrap_or(64);
+        for count in [65, highest.min(64) + 1] {
+            dut.refuses_value(Address::new(map, 0), &[count], &codes)?;
+        }
+        Ok(())
     })
 }
 

@@ -10,46 +10,46 @@ use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::abort_text;
 
 /// Time in which a drive changes to another state or mode, in microseconds.
-const CHANGE: u64 = 1_000_000;
+pub(super) const CHANGE: u64 = 1_000_000;
 /// Time in which an axis reaches its target or stops, in microseconds.
-const MOVE: u64 = 10_000_000;
+pub(super) const MOVE: u64 = 10_000_000;
 /// Shortest way of a movement in position units.
 const WAY: i64 = 1000;
 
 /// Number of a mode in 6060h.
-const PROFILE_POSITION: i8 = 1;
-const PROFILE_VELOCITY: i8 = 3;
-const HOMING: i8 = 6;
+pub(super) const PROFILE_POSITION: i8 = 1;
+pub(super) const PROFILE_VELOCITY: i8 = 3;
+pub(super) const HOMING: i8 = 6;
 const CYCLIC_POSITION: i8 = 8;
 const CYCLIC_VELOCITY: i8 = 9;
 const INTERPOLATED: i8 = 7;
 
 /// Controlword: enable operation, and its bits in the modes.
-const ENABLE: u16 = 0x0F;
-const START: u16 = 1 << 4;
+pub(super) const ENABLE: u16 = 0x0F;
+pub(super) const START: u16 = 1 << 4;
 const AT_ONCE: u16 = 1 << 5;
 const RELATIVE: u16 = 1 << 6;
 const HALT: u16 = 1 << 8;
 
 /// A state in the statusword (6041h): its name, the mask of its bits, and their values.
-type Shown<'s> = (&'s str, u64, u64);
+pub(super) type Shown<'s> = (&'s str, u64, u64);
 const DISABLED: Shown<'_> = ("Switch on disabled", 0x4F, 0x40);
 const READY: Shown<'_> = ("Ready to switch on", 0x6F, 0x21);
 const SWITCHED_ON: Shown<'_> = ("Switched on", 0x6F, 0x23);
 const ENABLED: Shown<'_> = ("Operation enabled", 0x6F, 0x27);
 const QUICK_STOP: Shown<'_> = ("Quick stop active", 0x6F, 0x07);
 const FAULT: Shown<'_> = ("Fault", 0x4F, 0x08);
-const REACHED: Shown<'_> = ("target reached, bit 10 = 1", 1 << 10, 1 << 10);
+pub(super) const REACHED: Shown<'_> = ("target reached, bit 10 = 1", 1 << 10, 1 << 10);
 
 /// An axis: the distance of its objects from those of the first axis.
 #[derive(Clone, Copy)]
-struct Axis(u16);
+pub(super) struct Axis(pub(super) u16);
 
 /// A test with the operation enabled.
-type Test = fn(&mut Dut<'_>, Axis) -> Checked;
+pub(super) type Test = fn(&mut Dut<'_>, Axis) -> Checked;
 
 /// Tests each axis that has the mode, enabled in it.
-fn each(dut: &mut Dut<'_>, mode: i8, test: Test) -> Checked {
+pub(super) fn each(dut: &mut Dut<'_>, mode: i8, test: Test) -> Checked {
     let axes = (0..8).map(|number| Axis(number * 0x800));
     let axes: Vec<Axis> = axes
         .filter(|axis| dut.eds.writes(0x6040 + axis.0, 0))
@@ -62,28 +62,28 @@ fn each(dut: &mut Dut<'_>, mode: i8, test: Test) -> Checked {
 }
 
 impl Axis {
-    const fn at(self, index: u16) -> Address {
+    pub(super) const fn at(self, index: u16) -> Address {
         Address::new(index + self.0, 0)
     }
 
-    fn has(self, dut: &Dut<'_>, index: u16) -> bool {
+    pub(super) fn has(self, dut: &Dut<'_>, index: u16) -> bool {
         dut.eds.has(index + self.0)
     }
 
     /// A value with its sign.
-    fn value(self, dut: &mut Dut<'_>, index: u16) -> Checked<i64> {
+    pub(super) fn value(self, dut: &mut Dut<'_>, index: u16) -> Checked<i64> {
         let bytes = dut.read(self.at(index))?;
         Ok(signed(&bytes))
     }
 
     /// Writes a number with the length of the object; the old value returns after the case.
-    fn set(self, dut: &mut Dut<'_>, index: u16, value: i64) -> Checked {
+    pub(super) fn set(self, dut: &mut Dut<'_>, index: u16, value: i64) -> Checked {
         let len = dut.keep(self.at(index))?.len();
         dut.write(self.at(index), &value.to_le_bytes()[..len.min(8)])
     }
 
     /// Writes a number as [`set`](Self::set); a drive that refuses it skips the case.
-    fn choose(self, dut: &mut Dut<'_>, index: u16, value: i64) -> Checked {
+    pub(super) fn choose(self, dut: &mut Dut<'_>, index: u16, value: i64) -> Checked {
         let len = dut.keep(self.at(index))?.len();
         match dut.download(self.at(index), &value.to_le_bytes()[..len.min(8)])? {
             Ok(()) => Ok(()),
@@ -114,12 +114,17 @@ impl Axis {
         Ok(all)
     }
 
-    fn command(self, dut: &mut Dut<'_>, word: u16) -> Checked {
+    pub(super) fn command(self, dut: &mut Dut<'_>, word: u16) -> Checked {
         dut.write(self.at(0x6040), &word.to_le_bytes())
     }
 
     /// Waits until the statusword shows this.
-    fn shows(self, dut: &mut Dut<'_>, micros: u64, (what, mask, bits): Shown<'_>) -> Checked {
+    pub(super) fn shows(
+        self,
+        dut: &mut Dut<'_>,
+        micros: u64,
+        (what, mask, bits): Shown<'_>,
+    ) -> Checked {
         let end = dut.now().plus_micros(micros);
         loop {
             let is = self.value(dut, 0x6041)? as u64;
@@ -157,7 +162,14 @@ impl Axis {
         }
     }
 
-    fn is_at(self, index: u16, is: i64, wanted: i64, window: i64, when: &str) -> Checked {
+    pub(super) fn is_at(
+        self,
+        index: u16,
+        is: i64,
+        wanted: i64,
+        window: i64,
+        when: &str,
+    ) -> Checked {
         ensure(
             (is - wanted).abs() <= window,
             format!(
@@ -230,7 +242,7 @@ impl Axis {
     }
 
     /// The value of a window, or 0 without the object.
-    fn window(self, dut: &mut Dut<'_>, index: u16) -> Checked<i64> {
+    pub(super) fn window(self, dut: &mut Dut<'_>, index: u16) -> Checked<i64> {
         if self.has(dut, index) {
             let bytes = dut.read(self.at(index))?;
             return Ok(crate::conform::sdo::number(&bytes) as i64);
@@ -239,7 +251,7 @@ impl Axis {
     }
 
     /// A place that is [`WAY`] away, or ten times the position window (6067h).
-    fn way(self, dut: &mut Dut<'_>) -> Checked<i64> {
+    pub(super) fn way(self, dut: &mut Dut<'_>) -> Checked<i64> {
         match self.window(dut, 0x6067)? {
             window @ 0..=100_000 => Ok(WAY.max(10 * window)),
             _ => lacks("6067h is too wide to see whether the axis moves"),
@@ -247,7 +259,7 @@ impl Axis {
     }
 
     /// A tenth of the profile velocity (6081h), or ten times the velocity window (606Dh).
-    fn pace(self, dut: &mut Dut<'_>) -> Checked<i64> {
+    pub(super) fn pace(self, dut: &mut Dut<'_>) -> Checked<i64> {
         let window = self.window(dut, 0x606D)?;
         let most = if self.has(dut, 0x6081) {
             self.window(dut, 0x6081)?
@@ -265,7 +277,7 @@ impl Axis {
     }
 
     /// Writes a set-point, and waits for the handshake of bits 4 and 12.
-    fn set_point(self, dut: &mut Dut<'_>, target: i64, how: u16) -> Checked {
+    pub(super) fn set_point(self, dut: &mut Dut<'_>, target: i64, how: u16) -> Checked {
         let acknowledged = 1 << 12;
         self.command(dut, ENABLE | how)?;
         self.shows(
@@ -323,6 +335,10 @@ pub(super) fn set_point(dut: &mut Dut<'_>) -> Checked {
         let target = axis.value(dut, 0x6064)? + axis.way(dut)?;
         axis.set_point(dut, target, 0)?;
         axis.arrives(dut, target)?;
+        if axis.has(dut, 0x6062) {
+            let (is, window) = (axis.value(dut, 0x6062)?, axis.window(dut, 0x6067)?);
+            axis.is_at(0x6062, is, target, window, "when the axis is there")?;
+        }
         if !dut.eds.writes(0x6081 + axis.0, 0) || !axis.has(dut, 0x606C) {
             return Ok(());
         }
@@ -536,39 +552,6 @@ pub(super) fn interpolated(dut: &mut Dut<'_>) -> Checked {
             }
         }
         Ok(())
-    })
-}
-
-/// Homing at the present position: bits 10, 12 and 13.
-pub(super) fn homing(dut: &mut Dut<'_>) -> Checked {
-    each(dut, HOMING, |dut, axis| {
-        const BITS: u64 = 1 << 10 | 1 << 12 | 1 << 13;
-        let method = axis.at(0x6098);
-        dut.keep(method)?;
-        // Method 35 has the number 37 since the second edition.
-        if dut.download(method, &[37])?.is_err() && dut.download(method, &[35])?.is_err() {
-            return lacks("the drive has neither homing method 37 nor 35");
-        }
-        let offset = axis.way(dut)?;
-        axis.set(dut, 0x607C, offset)?;
-        axis.shows(
-            dut,
-            CHANGE,
-            ("bits 12 and 13 = 0 before homing", 1 << 12 | 1 << 13, 0),
-        )?;
-        axis.command(dut, ENABLE | START)?;
-        let attained = "homing attained and target reached, bits 13, 12 and 10 = 011";
-        axis.shows(dut, MOVE, (attained, BITS, 1 << 10 | 1 << 12))?;
-        let (is, window) = (axis.value(dut, 0x6064)?, axis.window(dut, 0x6067)?);
-        axis.command(dut, ENABLE)?;
-        // The editions of the standard differ in the sign of the home offset.
-        axis.is_at(
-            0x6064,
-            is.abs(),
-            offset,
-            window,
-            "(without its sign) after homing, the home offset",
-        )
     })
 }
 

@@ -263,7 +263,13 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
         dut.node.raw() + 1
     };
     let id = dut.id(0x700);
-    for state in [PRE_OPERATIONAL, OPERATIONAL] {
+    // The node IDs end at 127, so a node must compare all eight bits.
+    let beyond = dut.node.raw() | 0x80;
+    for (state, other) in [
+        (PRE_OPERATIONAL, other),
+        (PRE_OPERATIONAL, beyond),
+        (OPERATIONAL, other),
+    ] {
         if state == OPERATIONAL {
             dut.nmt(Command::Start)?;
         }
@@ -279,6 +285,21 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
             }
             dut.is_in(state)?;
         }
+    }
+    Ok(())
+}
+
+/// A frame of 29 bits whose number is 0 is not an NMT command.
+pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
+    dut.follow_state()?;
+    let node = dut.node.raw();
+    for command in [Command::Start, Command::Stop] {
+        let data = Repr { command, node }.emit();
+        if let Some(frame) = Frame::new(CanId::extended(0), &data) {
+            dut.send(frame)?;
+        }
+        dut.settle(QUIET)?;
+        dut.is_in(PRE_OPERATIONAL)?;
     }
     Ok(())
 }
@@ -395,7 +416,10 @@ pub(super) fn reset_application(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// The value of a number with two limits, and another one between them.
-fn another_of(dut: &mut Dut<'_>, entry: &od_model::Entry) -> Checked<Option<(Vec<u8>, Vec<u8>)>> {
+pub(super) fn another_of(
+    dut: &mut Dut<'_>,
+    entry: &od_model::Entry,
+) -> Checked<Option<(Vec<u8>, Vec<u8>)>> {
     let node = dut.node.raw();
     let (Some(low), Some(high)) = (entry.low.integer(node), entry.high.integer(node)) else {
         return Ok(None);

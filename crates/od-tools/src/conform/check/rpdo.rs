@@ -4,7 +4,7 @@ use od_model::{Address, Entry, values};
 use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
-use super::heartbeat::{emcy, sends_emcy};
+use super::heartbeat::{beat, emcy, sends_emcy, watch};
 use super::mapping::{self, DUMMY, each_refuses, on, raw};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
@@ -153,16 +153,7 @@ pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
-    sends_emcy(dut)?;
-    let pdo = first(dut, 255)?;
-    dut.nmt(Command::Start)?;
-    let before = dut.read(pdo.value())?;
-    let (bytes, _) = pdo.other(dut)?;
-    dut.drain()?;
-    let Some(frame) = Frame::new(CobId::new(pdo.cob_id).can_id(), &bytes[..bytes.len() - 1]) else {
-        return Ok(());
-    };
-    dut.send(frame)?;
+    let (pdo, before) = send_short(dut)?;
     if emcy(dut, 0x8210, 200_000)?.is_none() && dut.eds.has(0x1014) {
         return fail("EMCY 8210h for an RPDO that is too short", "none came");
     }
@@ -170,6 +161,70 @@ pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
     // The next valid frame ends the error.
     let good = pdo.other(dut)?;
     pdo.send(dut, &good.0)
+}
+
+/// Two different errors: an RPDO that is too short, then a missing heartbeat. The newest is the first of the history.
+pub(super) fn history_order(dut: &mut Dut<'_>) -> Checked {
+    let entry = |sub| Address::new(0x1003, sub);
+    if !dut.eds.has(0x1003) || dut.eds.entry(0x1003, 2).is_none() {
+        return lacks("1003h has one entry");
+    }
+    let count = dut.number(0x1003, 0)?;
+    send_short(dut)?;
+    if emcy(dut, 0x8210, 200_000)?.is_none() {
+        return lacks("an RPDO that is too short causes no EMCY 8210h");
+    }
+    let node = watch(dut, 100)?;
+    beat(dut, node)?;
+    if emcy(dut, 0x8130, 1_000_000)?.is_none() {
+        return lacks("a missing heartbeat causes no EMCY 8130h");
+    }
+    let now = dut.number(0x1003, 0)?;
+    let entries = dut.eds.dictionary().entries();
+    let own = entries.filter(|one| one.address.index == 0x1003);
+    let room = own.map(|one| one.address.sub).max().unwrap_or(0).into();
+    ensure(
+        now >= (count + 2).min(room),
+        format!("two more entries than {count} in 1003h:00, {room} at most"),
+        format!("{now} was read"),
+    )?;
+    for (sub, code) in [(1, 0x8130), (2, 0x8210)] {
+        let is = dut.number(0x1003, sub)?;
+        ensure(
+            is & 0xFFFF == code,
+            format!("{code:04X}h in {}, as 8210h came before 8130h", entry(sub)),
+            format!("{is:08X}h was read"),
+        )?;
+    }
+    Ok(())
+}
+
+/// Sends an RPDO without its last byte; returns it and its value before.
+fn send_short(dut: &mut Dut<'_>) -> Checked<(Rpdo, Vec<u8>)> {
+    sends_emcy(dut)?;
+    let pdo = first(dut, 255)?;
+    dut.nmt(Command::Start)?;
+    let before = dut.read(pdo.value())?;
+    let (bytes, _) = pdo.other(dut)?;
+    dut.drain()?;
+    let short = &bytes[..bytes.len().saturating_sub(1)];
+    if let Some(frame) = Frame::new(CobId::new(pdo.cob_id).can_id(), short) {
+        dut.send(frame)?;
+    }
+    Ok((pdo, before))
+}
+
+/// An RPDO of more bytes than its mapping: the first bytes are the values.
+pub(super) fn long(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut, 255)?;
+    dut.nmt(Command::Start)?;
+    let (mut bytes, value) = pdo.other(dut)?;
+    if bytes.len() >= 8 {
+        return lacks("the first RPDO has eight bytes");
+    }
+    bytes.push(0);
+    pdo.send(dut, &bytes)?;
+    pdo.holds(dut, &value, ", from the first bytes of a longer RPDO")
 }
 
 pub(super) fn synchronous(dut: &mut Dut<'_>) -> Checked {

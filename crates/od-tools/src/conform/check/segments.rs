@@ -88,6 +88,9 @@ pub(super) fn upload_toggle(dut: &mut Dut<'_>) -> Checked {
     begin(dut, address)?;
     let answer = dut.answer([0x70, 0, 0, 0, 0, 0, 0, 0])?;
     is_abort(&answer, &[ToggleBit])?;
+    // The abort ended the transfer.
+    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+    is_abort(&answer, &[InvalidCommand, ToggleBit])?;
     dut.still_serves()
 }
 

@@ -99,6 +99,100 @@ pub(super) fn save_communication(dut: &mut Dut<'_>) -> Checked {
     saves_no_communication(dut)
 }
 
+/// A parameter of the application with limits that only sub-indices 1 and 3 of 1010h save, its value, and another one.
+fn another_application(dut: &mut Dut<'_>) -> Checked<Option<Change>> {
+    for entry in dut.eds.writable() {
+        let is_own = (0x2000..0xA000).contains(&entry.address.index)
+            && entry.group.covered_by(3)
+            && !entry.group.covered_by(2)
+            && !dut.eds.moves(entry.address);
+        if is_own
+            && let Some((other, before)) = super::nmt::another_of(dut, &entry)?
+            && dut.download(entry.address, &other)?.is_ok()
+        {
+            return Ok(Some((entry.address, before, other)));
+        }
+    }
+    Ok(None)
+}
+
+/// 1010h:02 saves no parameter of the application, and 1010h:03 saves it.
+pub(super) fn save_application(dut: &mut Dut<'_>) -> Checked {
+    if dut.eds.entry(0x1010, 2).is_none() || !saves_on_command(dut, 3)? {
+        return lacks("the node does not save the application separately on command");
+    }
+    let Some((address, before, other)) = another_application(dut)? else {
+        return lacks("no parameter of the application can be changed");
+    };
+    let done = (|| {
+        command(dut, 0x1010, 2, b"save")?;
+        dut.write(address, &before)?;
+        dut.reset(Command::ResetNode)?;
+        is_there(dut, address, &before, "1010h:02 does not save it")?;
+        dut.write(address, &other)?;
+        command(dut, 0x1010, 3, b"save")?;
+        dut.write(address, &before)?;
+        dut.reset(Command::ResetNode)?;
+        is_there(dut, address, &other, "1010h:03 saves it")
+    })();
+    saved_again(dut, done, address, &before)
+}
+
+/// 1011h:02 restores no parameter of the application, and 1011h:03 restores it.
+pub(super) fn load_application(dut: &mut Dut<'_>) -> Checked {
+    if !saves_on_command(dut, 1)? || dut.number(0x1011, 3)? & 1 == 0 {
+        return lacks("the node does not restore the application separately");
+    }
+    let all = backup(dut)?;
+    let Some((address, before, other)) = another_application(dut)? else {
+        return lacks("no parameter of the application can be changed");
+    };
+    let default = dut.eds.entry(address.index, address.sub);
+    let default = default.and_then(|entry| dut.eds.default(&entry, dut.node));
+    let done = (|| {
+        command(dut, 0x1010, 1, b"save")?;
+        command(dut, 0x1011, 2, b"load")?;
+        dut.reset(Command::ResetNode)?;
+        is_there(dut, address, &other, "1011h:02 does not restore it")?;
+        command(dut, 0x1011, 3, b"load")?;
+        dut.reset(Command::ResetNode)?;
+        match &default {
+            Some(default) => is_there(dut, address, default, "1011h:03 restores it"),
+            None => Ok(()),
+        }
+    })();
+    let done = saved_again(dut, done, address, &before);
+    if matches!(done, Err(End::Lost(_))) {
+        return done;
+    }
+    done.and(bring_back(dut, &all))
+}
+
+/// Fails unless a value is the wanted one after the reset.
+fn is_there(dut: &mut Dut<'_>, address: Address, wanted: &[u8], why: &str) -> Checked {
+    let after = dut.read(address)?;
+    ensure(
+        after == wanted,
+        format!(
+            "{} in {address} after the reset: {why}",
+            values::hex(wanted)
+        ),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+/// Writes the earlier value and saves it, whatever the result of the case is.
+fn saved_again(dut: &mut Dut<'_>, done: Checked, address: Address, before: &[u8]) -> Checked {
+    if matches!(done, Err(End::Lost(_))) {
+        return done;
+    }
+    dut.write(address, before)?;
+    command(dut, 0x1010, 1, b"save")?;
+    dut.notes
+        .push(format!("saved {address} = {} again", values::hex(before)));
+    done
+}
+
 /// Returns whether this sub-index of 1010h says that the node saves on command (bit 0).
 fn saves_on_command(dut: &mut Dut<'_>, sub: u8) -> Checked<bool> {
     Ok(dut.number(0x1010, sub)? & 1 != 0)

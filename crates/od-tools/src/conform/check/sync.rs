@@ -44,6 +44,23 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     ensure(came.is_some(), "a TPDO with the new SYNC 4F2h", "none came")
 }
 
+/// A remote frame with the CAN-ID of SYNC is not a SYNC message.
+pub(super) fn remote(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 1)?;
+    dut.nmt(Command::Start)?;
+    dut.drain()?;
+    dut.ask_for(CobId::new(dut.sync_id).can_id(), 0)?;
+    let id = pdo.id();
+    match dut.next(QUIET, |frame| frame.id() == id)? {
+        Some(heard) => fail(
+            "no TPDO after a remote frame with the CAN-ID of SYNC",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
 /// A new period takes effect while the node produces SYNC.
 pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     let raw = produce(dut)?;
@@ -219,9 +236,49 @@ pub(super) fn producer(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
+/// A producer sends SYNC with another CAN-ID of 1005h.
+pub(super) fn producer_cob_id(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let raw = dut.number(0x1005, 0)? as u32;
+    dut.keep(COB_ID)?;
+    dut.set(Address::new(0x1006, 0), &50_000u32.to_le_bytes())?;
+    let other = (raw & !(1 << 30 | 0x7FF)) | 0x4F2;
+    for value in [other, other | 1 << 30] {
+        if dut.download(COB_ID, &value.to_le_bytes())?.is_err() {
+            return lacks("the node does not produce SYNC with another CAN-ID");
+        }
+    }
+    dut.nmt(Command::Start)?;
+    let ids = [CobId::new(other).can_id(), CobId::new(raw).can_id()];
+    let heard = dut.next(200_000, |frame| ids.contains(&frame.id()))?;
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &other.to_le_bytes())?;
+    match heard {
+        Some(heard) => ensure(
+            heard.frame.id() == ids[0],
+            "SYNC with the CAN-ID 4F2h of 1005h",
+            format!("{} came", heard.frame),
+        ),
+        None => fail("a SYNC message every 50 ms", "none came for 200 ms"),
+    }
+}
+
+/// No SYNC with the period 0, and none without bit 30.
 pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut)?;
+    let id = CobId::new(raw).can_id();
+    if dut.next(200_000, |frame| frame.id() == id)?.is_none() {
+        return fail("a SYNC message every 50 ms", "none came for 200 ms");
+    }
+    dut.write(Address::new(0x1006, 0), &[0; 4])?;
+    dut.drain()?;
+    let heard = dut.next(200_000, |frame| frame.id() == id)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    if let Some(heard) = heard {
+        return fail("no SYNC with 0 in 1006h", format!("{} came", heard.frame));
+    }
     produced(dut, 1)?;
-    let id = CobId::new(dut.sync_id).can_id();
     match dut.next(200_000, |frame| frame.id() == id)? {
         Some(heard) => fail(
             "no SYNC without bit 30 of 1005h",

@@ -105,6 +105,24 @@ pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
     none(dut, &pdo, 300_000, "no TPDO without SYNC")
 }
 
+/// With transmission type 253 only a remote frame sends the TPDO, and the event timer does not.
+pub(super) fn rtr_only(dut: &mut Dut<'_>) -> Checked {
+    let pdo = typed(dut, 253)?;
+    if !CobId::new(pdo.cob_id).allows_rtr() {
+        return lacks("the COB-ID forbids remote frames (bit 30)");
+    }
+    if dut.eds.writes(pdo.com, 5) {
+        dut.set(pdo.address(5), &50u16.to_le_bytes())?;
+    }
+    dut.nmt(Command::Start)?;
+    none(dut, &pdo, 300_000, "no TPDO without a remote frame")?;
+    dut.ask_for(pdo.id(), 8)?;
+    match next(dut, &pdo, QUIET)? {
+        Some(_) => Ok(()),
+        None => fail("the TPDO within 100 ms of its remote frame", "none came"),
+    }
+}
+
 /// Each TPDO that allows remote frames and has a mapping.
 pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
     first(dut)?;

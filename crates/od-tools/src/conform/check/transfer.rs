@@ -5,7 +5,7 @@ use od_wire::AbortCode::{
     InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
     ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
 };
-use od_wire::{CobId, Frame};
+use od_wire::{CanId, CobId, Frame};
 
 use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
 use crate::conform::eds::is_number;
@@ -113,6 +113,28 @@ pub(super) fn another_saved(
         }
     }
     Ok(None)
+}
+
+/// Command 22h: the server takes the bytes that the object has.
+pub(super) fn download_no_size(dut: &mut Dut<'_>) -> Checked {
+    let Some((address, value)) = another_value(dut)? else {
+        return lacks("no parameter of communication can be written");
+    };
+    dut.keep(address)?;
+    let mut bytes = [0; 4];
+    bytes[..value.len()].copy_from_slice(&value);
+    let answer = dut.answer(request(0x22, address, bytes))?;
+    ensure(
+        answer[0] == 0x60,
+        "60h, the confirmation of an expedited download without a size",
+        format!("{} came", values::hex(&answer)),
+    )?;
+    let is = dut.read(address)?;
+    ensure(
+        is == value,
+        format!("{} in {address}", values::hex(&value)),
+        format!("{} was read", values::hex(&is)),
+    )
 }
 
 pub(super) fn write_read_only(dut: &mut Dut<'_>) -> Checked {
@@ -357,6 +379,16 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     dut.send_to(0x600 + other, &request(0x40, TYPE, [0; 4]))?;
     let id = dut.id(0x580);
     dut.silent(id, QUIET, "no response to a request to another node")?;
+    dut.still_serves()
+}
+
+/// A frame of 29 bits whose number is that of the request is another frame.
+pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
+    let id = CanId::extended(dut.id(0x600).into());
+    dut.drain()?;
+    dut.send(Frame::full(id, request(0x40, TYPE, [0; 4])))?;
+    let id = dut.id(0x580);
+    dut.silent(id, QUIET, "no response to a frame with a CAN-ID of 29 bits")?;
     dut.still_serves()
 }
 

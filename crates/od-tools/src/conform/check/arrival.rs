@@ -1,0 +1,176 @@
+//! CiA 402: when an axis has arrived: the time in a window, and the home position.
+
+use od_model::Address;
+use od_wire::Instant;
+
+use super::motion::{
+    Axis, CHANGE, ENABLE, HOMING, MOVE, PROFILE_POSITION, PROFILE_VELOCITY, REACHED, START, each,
+};
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, ensure, lacks};
+
+/// Time in a window until bit 10 is 1, in milliseconds.
+const IN_WINDOW: i64 = 500;
+
+/// Bit 10 becomes 1 when the position was within 6067h for the time of 6068h, not before.
+pub(super) fn position_window_time(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        axis.choose(dut, 0x6068, IN_WINDOW)?;
+        let target = axis.value(dut, 0x6064)? + axis.way(dut)?;
+        let window = axis.window(dut, 0x6067)?;
+        axis.set_point(dut, target, 0)?;
+        reaches_after(axis, dut, 0x6064, target, window, 0x6068)
+    })
+}
+
+/// Bit 10 becomes 1 when the velocity was within 606Dh for the time of 606Eh, not before.
+pub(super) fn velocity_window_time(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        axis.choose(dut, 0x606E, IN_WINDOW)?;
+        let (pace, window) = (axis.pace(dut)?, axis.window(dut, 0x606D)?);
+        axis.set(dut, 0x60FF, pace)?;
+        // Until now the axis was at its target, 0.
+        dut.wait(10_000)?;
+        reaches_after(axis, dut, 0x606C, pace, window, 0x606E)
+    })
+}
+
+/// Waits for bit 10, which must not come before the value was within the window for [`IN_WINDOW`].
+fn reaches_after(
+    axis: Axis,
+    dut: &mut Dut<'_>,
+    index: u16,
+    wanted: i64,
+    window: i64,
+    time: u16,
+) -> Checked {
+    let end = dut.now().plus_micros(MOVE);
+    let mut inside: Option<Instant> = None;
+    loop {
+        let asked = dut.now();
+        if (axis.value(dut, index)? - wanted).abs() <= window {
+            inside.get_or_insert(asked);
+        } else {
+            inside = None;
+        }
+        let now = dut.now();
+        if axis.value(dut, 0x6041)? as u64 & REACHED.1 != 0 {
+            let took = inside.map_or(0, |from| now.micros_since(from));
+            return ensure(
+                took + dut.rig.slack() + 100_000 >= IN_WINDOW as u64 * 1000,
+                format!(
+                    "bit 10 of {} after {IN_WINDOW} ms in the window, as {} says",
+                    axis.at(0x6041),
+                    axis.at(time)
+                ),
+                format!("it was 1 after {} ms", took / 1000),
+            );
+        }
+        if now >= end {
+            return axis.shows(dut, 0, REACHED);
+        }
+        dut.wait(5_000)?;
+    }
+}
+
+/// Homing at the present position: bits 10, 12 and 13.
+pub(super) fn homing(dut: &mut Dut<'_>) -> Checked {
+    each(dut, HOMING, |dut, axis| {
+        const BITS: u64 = 1 << 10 | 1 << 12 | 1 << 13;
+        let method = axis.at(0x6098);
+        dut.keep(method)?;
+        // Method 35 has the number 37 since the second edition.
+        if dut.download(method, &[37])?.is_err() && dut.download(method, &[35])?.is_err() {
+            return lacks("the drive has neither homing method 37 nor 35");
+        }
+        let offset = axis.way(dut)?;
+        axis.set(dut, 0x607C, offset)?;
+        axis.shows(
+            dut,
+            CHANGE,
+            ("bits 12 and 13 = 0 before homing", 1 << 12 | 1 << 13, 0),
+        )?;
+        axis.command(dut, ENABLE | START)?;
+        let attained = "homing attained and target reached, bits 13, 12 and 10 = 011";
+        axis.shows(dut, MOVE, (attained, BITS, 1 << 10 | 1 << 12))?;
+        let (is, window) = (axis.value(dut, 0x6064)?, axis.window(dut, 0x6067)?);
+        axis.command(dut, ENABLE)?;
+        // The editions of the standard differ in the sign of the home offset.
+        axis.is_at(
+            0x6064,
+            is.abs(),
+            offset,
+            window,
+            "(without its sign) after homing, the home offset",
+        )
+    })
+}
+
+/// With an acceleration (609Ah) of one second to the speed, homing is slower than half of it after 200 ms.
+fn starts_slowly(dut: &mut Dut<'_>, axis: Axis, pace: i64) -> Checked {
+    let before = axis.value(dut, 0x609A)?;
+    axis.set(dut, 0x609A, pace)?;
+    axis.command(dut, ENABLE | START)?;
+    dut.wait(200_000)?;
+    let speed = axis.value(dut, 0x606C)?.abs();
+    axis.set(dut, 0x609A, before)?;
+    axis.command(dut, ENABLE)?;
+    dut.wait(500_000)?;
+    ensure(
+        speed <= pace / 2,
+        format!(
+            "{} at most in {} after 200 ms of homing, as {} is {pace}",
+            pace / 2,
+            axis.at(0x606C),
+            axis.at(0x609A)
+        ),
+        format!("{speed} was read"),
+    )
+}
+
+/// A movement to a switch has the speed of 6099h; it ends before the switch is found.
+pub(super) fn homing_speed(dut: &mut Dut<'_>) -> Checked {
+    each(dut, HOMING, |dut, axis| {
+        let method = axis.at(0x6098);
+        dut.keep(method)?;
+        let mut has_method = false;
+        for number in [17, 18, 19, 20, 1, 2] {
+            has_method = has_method || dut.download(method, &[number])?.is_ok();
+        }
+        if !has_method {
+            return lacks("the drive has no homing method with a switch");
+        }
+        let pace = axis.pace(dut)?;
+        for sub in [1, 2] {
+            let address = Address::new(0x6099 + axis.0, sub);
+            let len = dut.keep(address)?.len();
+            dut.write(address, &pace.to_le_bytes()[..len.min(8)])?;
+        }
+        if dut.eds.writes(0x609A + axis.0, 0) {
+            starts_slowly(dut, axis, pace)?;
+        }
+        axis.command(dut, ENABLE | START)?;
+        let window = axis.window(dut, 0x606D)?.max(pace / 20);
+        let end = dut.now().plus_micros(MOVE);
+        let mut speed = 0;
+        while (speed - pace).abs() > window && dut.now() < end {
+            dut.wait(10_000)?;
+            speed = axis.value(dut, 0x606C)?.abs();
+        }
+        // The axis keeps this speed.
+        dut.wait(100_000)?;
+        let later = axis.value(dut, 0x606C)?.abs();
+        axis.command(dut, ENABLE)?;
+        let wrong = [speed, later]
+            .into_iter()
+            .find(|is| (is - pace).abs() > window);
+        ensure(
+            wrong.is_none(),
+            format!(
+                "{pace}, {window} off at most, in {} during homing, as 6099h says",
+                axis.at(0x606C)
+            ),
+            format!("{} was read", wrong.unwrap_or(0)),
+        )
+    })
+}
