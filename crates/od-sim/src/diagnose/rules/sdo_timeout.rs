@@ -16,19 +16,39 @@ pub(super) const RULE: Rule = Rule {
 /// Failures this far apart are one incident, in microseconds.
 const APART: u64 = 10_000_000;
 
+/// A client that asks so many node IDs without a node for one object looks for nodes.
+const SEARCH: usize = 4;
+
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
         let failed: Vec<&Exchange> = node
             .exchanges
             .iter()
-            .filter(|one| is_failed(facts, one))
+            .filter(|one| is_failed(facts, one) && !is_search(facts, node, one))
             .collect();
         for group in failed.chunk_by(|a, b| b.request.at.micros_since(a.request.at) <= APART) {
             found.extend(incident(facts, *id, node, group));
         }
     }
     found
+}
+
+/// Returns whether a request without a response is one of a search: other node IDs that sent nothing got it, too, and each
+/// no other request.
+fn is_search(facts: &Facts<'_>, node: &Node, one: &Exchange) -> bool {
+    let is_asked = |node: &Node| match &node.exchanges[..] {
+        [only] => {
+            let [first, last] = [
+                only.request.at.min(one.request.at),
+                only.request.at.max(one.request.at),
+            ];
+            only.address == one.address && !only.is_download && last.micros_since(first) <= APART
+        }
+        _ => false,
+    };
+    let absent = facts.nodes.values().filter(|node| node.sent.is_empty());
+    node.sent.is_empty() && is_asked(node) && absent.filter(|node| is_asked(node)).count() >= SEARCH
 }
 
 fn is_failed(facts: &Facts<'_>, one: &Exchange) -> bool {
