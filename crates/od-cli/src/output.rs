@@ -106,10 +106,15 @@ fn open(result: io::Result<()>) -> Result<bool, Failure> {
     }
 }
 
-/// Prints a message of the argument parser where it belongs.
+/// Prints a message of the argument parser where it belongs: the help on standard output, an error, which quotes the
+/// arguments, on standard error.
 pub(crate) fn print_or_ignore(error: &clap::Error) {
-    // Without a listener the error cannot be reported.
-    let _ = error.print();
+    if error.use_stderr() {
+        note_text(&error.render().to_string());
+    } else {
+        // Without a listener the help cannot be shown.
+        let _ = error.print();
+    }
 }
 
 /// Prints a line on standard error that begins with `odkit:`.

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use od_eds::{Description, Tables};
-use od_model::{Address, Dictionary, Kind, Literal, values};
+use od_model::{Address, Dictionary, Kind, Literal, Visible, values};
 use od_runtime::CobId;
 use od_runtime::encoder::{EncoderProfile, Total};
 
@@ -101,10 +101,13 @@ impl DeviceFile {
         } else {
             ("NodeId, Profile", "")
         };
+        let title = title(description, name);
         vec![
             ("name", name.to_owned()),
             ("crate", name.replace('-', "_").to_ascii_lowercase()),
-            ("title", title(description, name)),
+            // For a page of documentation, which is Markdown.
+            ("shown", Visible(&title).markdown()),
+            ("title", title),
             ("eds", format!("{name}.{}", self.ending)),
             ("absent", format!("{:04X}h", absent.unwrap_or(0x0FFF))),
             ("edits", edits(dictionary)),

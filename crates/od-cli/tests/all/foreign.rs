@@ -174,6 +174,14 @@ fn logs_show_it_in_every_format() {
     }
     let table = run(&format!("decode {log} --eds {eds} --format csv"));
     no_formula("decode", &table);
+    for format in ["text", "json", "md"] {
+        let said = run(&format!("diagnose {log} --eds {eds} --format {format}"));
+        if format == "md" {
+            // Between two fences the text is code.
+            let outside: String = said.split("```").step_by(2).collect();
+            no_markup("diagnose", &outside);
+        }
+    }
     let script = format!("device {eds}\nstart\nexpect 6004h = 5\n{EVIL}\n");
     run(&format!(
         "run {}",
@@ -248,4 +256,96 @@ fn a_bus_shows_it_in_every_format() {
         harmless(line, &done.err);
     }
     harmless("sim", &sim.end("-TERM"));
+}
+
+#[test]
+fn scripts_lessons_and_new_devices_show_it() {
+    let eds = file("foreign-new.eds", &eds()).display().to_string();
+    let script = format!("device {eds} node 5\nstart\nrandom 10\nexpect 1008h = \"{EVIL}\"\n");
+    let script = file("foreign-random.script", &script).display().to_string();
+    run(&format!("campaign {script} --seeds 0..2"));
+    let lesson = format!("# {EVIL}\n## {EVIL}\n{EVIL}\n```checkpoint\n{EVIL}\n```\n");
+    let lesson = file("foreign-lesson.md", &lesson).display().to_string();
+    run(&format!("lesson check {lesson}"));
+    run(&format!("lesson show {lesson}"));
+    let progress = serde_json::json!({ "name": EVIL, "lessons": [{ "lesson": EVIL }] });
+    let progress = file("foreign-progress.json", &progress.to_string());
+    run(&format!("lesson progress {}", progress.display()));
+    let folder = crate::support::temporary();
+    let made = folder.path().join("made");
+    let repaired = file("foreign-name.eds", &named()).display().to_string();
+    run(&format!(
+        "new {repaired} --name made --path {}",
+        made.display()
+    ));
+    for path in ["README.md", "src/lib.rs", "src/main.rs", "Cargo.toml"] {
+        let written = fs::read_to_string(made.join(path)).expect("a file of the crate");
+        harmless(path, &written);
+        // In a Rust string the text is what it is; a page of documentation shows it.
+        let shown: Vec<&str> = written
+            .lines()
+            .filter(|line| !line.starts_with("const "))
+            .collect();
+        no_markup(path, &shown.join("\n"));
+    }
+}
+
+/// A valid EDS whose product has this name.
+fn named() -> String {
+    let text = fs::read_to_string(repository("devices/eds/GXMM.eds")).expect("an EDS");
+    let line = |line: &str| match line.split_once('=') {
+        Some(("ProductName", _)) => format!("ProductName={EVIL}\n"),
+        _ => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
+/// The parser of the command line quotes arguments, which may be names of files of others.
+#[test]
+fn a_wrong_argument_is_shown_escaped() {
+    for args in [
+        &[EVIL][..],
+        &["scan", EVIL],
+        &["scan", "--format", EVIL],
+        &["nmt", EVIL, "start"],
+        &["backup", "5", "--link", EVIL, "-o", EVIL],
+        &["conform", "gxmm", "--only", EVIL],
+        &["sim", EVIL],
+        &["bridge", EVIL],
+        &["class", "--port", EVIL],
+        &["explain", EVIL],
+        &["ctl", EVIL, EVIL],
+    ] {
+        let done = odkit(args, "");
+        assert!(done.code == 1 || done.code == 2, "{args:?}");
+        harmless(args[0], &done.out);
+        harmless(args[0], &done.err);
+    }
+}
+
+/// A new command gets its lines here.
+#[test]
+fn each_command_shows_foreign_text_in_a_test() {
+    const HERE: &str = include_str!("foreign.rs");
+    // Text of others reaches these as a frame, a number or a message of another program only, or tests of their own read
+    // it: `class.rs` what students send, `lsp` in od-lsp. The last five write to a node, and say no text of it.
+    let other = [
+        "bridge", "class", "lsp", "explain", "record", "replay", "nmt", "save", "restore", "apply",
+    ];
+    let help = odkit(&["--help"], "").out;
+    let (list, _) = help.split_once("\nOptions:").expect("options");
+    let commands = list.lines().filter_map(|line| line.strip_prefix("  "));
+    let commands: Vec<&str> = commands
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(commands.len() > 25, "{commands:?}");
+    let without: Vec<&&str> = commands
+        .iter()
+        .filter(|name| !other.contains(*name))
+        .filter(|name| !HERE.contains(&format!("\"{name} ")) && !["sim", "ctl"].contains(*name))
+        .collect();
+    assert!(
+        without.is_empty(),
+        "without a test of foreign text: {without:?}"
+    );
 }

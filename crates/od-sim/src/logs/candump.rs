@@ -77,9 +77,15 @@ pub(super) fn is_record(line: &str) -> bool {
     logged(line).is_ok_and(|line| line.at.is_some() && line.interface.is_some())
 }
 
-/// Returns whether a line is a frame without a time stamp, with or without its interface.
+/// Returns whether a line is a frame without a time stamp, with or without its interface; also a CAN FD frame, so that a log
+/// of such frames is named.
 pub(super) fn is_untimed(line: &str) -> bool {
-    logged(line).is_ok_and(|line| line.at.is_none())
+    match logged(line) {
+        Ok(line) => line.at.is_none(),
+        Err(problem) => {
+            problem.message.ends_with(" a CAN FD frame") && !line.trim_start().starts_with('(')
+        }
+    }
 }
 
 /// Reads a line in any of the three forms, including error frames.

@@ -132,3 +132,11 @@ fn utf_16_is_read() {
         assert_eq!(milliseconds(&bytes), [500, 600]);
     }
 }
+
+#[test]
+fn a_log_of_can_fd_frames_only_is_named() {
+    let frames =
+        "  can0  123   [12]  00 00 00 00 00 00 00 00 00 00 00 00\n  can0  701   [01]  05\n";
+    let why = super::super::read::read(frames.as_bytes()).expect_err("no classic frame");
+    assert!(why.to_string().contains("CAN FD"), "{why}");
+}
