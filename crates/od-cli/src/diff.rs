@@ -17,6 +17,10 @@ use crate::source::{self, Source};
 /// An object only in the second dictionary is added, an object only in the first is removed. A
 /// difference is breaking if a master configured for the first device may fail with the second.
 ///
+/// With a node on a bus, `diff` compares the descriptions: which objects the node has, the length of their values, their
+/// access when they are read, and values that the file declares constant. `--values` also compares each current value with
+/// the default value of the file.
+///
 /// Exit code 0: the comparison is done; 1: a difference of --fail-on was found, or the node violates the protocol in the
 /// transfer of an object.
 #[derive(clap::Args)]

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use od_model::Visible;
 use od_runtime::NodeId;
 use od_tools::Error;
 use od_tools::master::Master;
@@ -74,22 +73,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Usage(why.into()));
     }
     let mut shown = Vec::new();
-    let mut has_fault = false;
     for one in &asked {
-        let read = match master.upload(one.address) {
+        let object = (one.address, one.entry.as_ref());
+        shown.push(match master.upload(one.address) {
             // The other objects may be read all the same.
-            Err(Error::Protocol(why)) if asked.len() > 1 => {
-                output::note!("{}", Visible(&why));
-                has_fault = true;
-                continue;
-            }
-            read => Error::or_abort(read)?,
-        };
-        shown.push(Shown::new(
-            dictionary,
-            (one.address, one.entry.as_ref()),
-            read,
-        ));
+            Err(Error::Protocol(why)) => Shown::fault(dictionary, object, why),
+            read => Shown::new(dictionary, object, Error::or_abort(read)?),
+        });
     }
     drop(master);
     bar.clear();
@@ -115,10 +105,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Format::Text => value::lines(&shown),
         Format::Json => value::json(args.node.raw(), &shown),
     })?;
-    if has_fault
-        || shown
-            .iter()
-            .any(|one| one.result.is_err() && !one.has_no_data())
+    if shown
+        .iter()
+        .any(|one| one.result.is_err() && !one.has_no_data())
     {
         Err(Failure::Reported(1))
     } else {

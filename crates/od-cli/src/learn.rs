@@ -20,7 +20,7 @@ use crate::{bus, conform, files, output};
 /// If the node stores its own EDS (1021h), odkit reads it. Otherwise odkit reads all objects from 1000h to 9FFFh, and
 /// tests which of them can be written, without changing a value.
 /// Comments in the file list what odkit could not find out: types of objects that no standard
-/// defines, limits, which values are saved.
+/// defines, limits, which values are saved, and each object whose transfer failed.
 ///
 /// Exit code 0: the file has every object; 1: the node does not respond, or violates the protocol in the transfer of an
 /// object, which is noted, and the file has all others.

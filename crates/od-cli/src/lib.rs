@@ -165,8 +165,9 @@ pub fn main() -> ExitCode {
         Ok(matches) => matches,
         // `--help` and `--version` arrive here too, with exit code 0; an error has 2.
         Err(error) => {
-            output::print_or_ignore(&error);
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            output::print_or_ignore(&about_number(error));
+            return ExitCode::from(code);
         }
     };
     let cli = match Cli::from_arg_matches(&matches) {
@@ -215,6 +216,33 @@ pub fn main() -> ExitCode {
         Command::Diagnose(args) => diagnose::run(&args),
     };
     exit(result)
+}
+
+/// The error in words that say what to write, if an argument is not the number that it should be.
+fn about_number(error: clap::Error) -> clap::Error {
+    use clap::error::ContextKind;
+    use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
+    let Some(source) = std::error::Error::source(&error) else {
+        return error;
+    };
+    let right = match source
+        .downcast_ref::<ParseIntError>()
+        .map(ParseIntError::kind)
+    {
+        Some(IntErrorKind::PosOverflow) => "the number is too large",
+        Some(IntErrorKind::NegOverflow) => "the number is too small",
+        Some(_) => "write a whole number, such as 100",
+        None if source.is::<ParseFloatError>() => "write a number, such as 0.5",
+        None => return error,
+    };
+    let of = |kind| error.get(kind).map(ToString::to_string).unwrap_or_default();
+    let (argument, value) = (of(ContextKind::InvalidArg), of(ContextKind::InvalidValue));
+    clap::Error::raw(
+        error.kind(),
+        format!(
+            "invalid value '{value}' for '{argument}': {right}\n\nFor more information, try '--help'.\n"
+        ),
+    )
 }
 
 /// Prints the error, if there is one.

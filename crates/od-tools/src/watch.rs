@@ -70,16 +70,16 @@ pub fn sources(
     };
     let mut found: Vec<Source> = addresses.iter().map(polled).collect();
     for (number, index) in (1..).zip(0x1800..=0x19FF_u16) {
-        let cob_id = match Error::or_abort(master.upload(Address::new(index, 1)))? {
-            // TPDOs after a gap are rare, and reading all 512 takes seconds.
-            Err(code) if code == AbortCode::NoObject.code() && number > 4 => break,
+        let cob_id = match read(master, index, 1)? {
+            // TPDOs after a gap, or after one that cannot be read, are rare, and reading all 512 takes seconds.
+            Err(_) if number > 4 => break,
             read => number_of(read),
         };
         let cob_id = cob_id.filter(|cob_id| cob_id & NOT_VALID == 0);
         let Some(id) = cob_id.map(can_id) else {
             continue;
         };
-        let kind = number_of(Error::or_abort(master.upload(Address::new(index, 2)))?);
+        let kind = number_of(read(master, index, 2)?);
         let kind = kind
             .and_then(|kind| u8::try_from(kind).ok())
             .map(TransmissionType::new);
@@ -88,12 +88,10 @@ pub fn sources(
             continue;
         }
         let mapping = index + 0x200;
-        let count =
-            number_of(Error::or_abort(master.upload(Address::new(mapping, 0)))?).unwrap_or(0);
+        let count = number_of(read(master, mapping, 0)?).unwrap_or(0);
         let mut first = 0_u32;
         for sub in 1..=count.min(64) as u8 {
-            let raw =
-                number_of(Error::or_abort(master.upload(Address::new(mapping, sub)))?).unwrap_or(0);
+            let raw = number_of(read(master, mapping, sub)?).unwrap_or(0);
             let MapEntry { address, bits } = MapEntry::parse(raw);
             let here = found
                 .iter_mut()
@@ -113,6 +111,19 @@ pub fn sources(
         }
     }
     Ok(found)
+}
+
+/// A parameter of a TPDO, or an abort code. A parameter in whose transfer the node violates the protocol is not known: the
+/// value is then read by SDO.
+fn read(
+    master: &mut Master<impl Link>,
+    index: u16,
+    sub: u8,
+) -> Result<Result<Vec<u8>, u32>, Error> {
+    match master.upload(Address::new(index, sub)) {
+        Err(Error::Protocol(_)) => Ok(Err(AbortCode::General.code())),
+        read => Error::or_abort(read),
+    }
 }
 
 fn number_of(read: Result<Vec<u8>, u32>) -> Option<u32> {

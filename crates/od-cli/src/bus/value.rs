@@ -1,12 +1,20 @@
 //! A value of a node, as lines and as JSON.
 
 use od_eds::outline::meaning_of_bytes;
-use od_model::{Address, DataType, Dictionary, Entry, Kind, values};
+use od_model::{Address, DataType, Dictionary, Entry, Kind, Visible, values};
 use od_tools::objects;
 use od_wire::{AbortCode, AbortReason};
 use serde_json::{Value, json};
 
-/// A value that was read or written, or the SDO abort code instead.
+/// Reason why there is no value.
+pub(crate) enum NoValue {
+    /// The SDO abort code.
+    Abort(u32),
+    /// The node violates the protocol, in words.
+    Fault(String),
+}
+
+/// A value that was read or written, or the reason why there is none.
 pub(crate) struct Shown {
     pub(crate) address: Address,
     place: String,
@@ -14,7 +22,7 @@ pub(crate) struct Shown {
     /// The value in words, and the meaning of its number in the documents of CiA.
     words: String,
     meaning: Option<String>,
-    pub(crate) result: Result<(DataType, Vec<u8>), u32>,
+    pub(crate) result: Result<(DataType, Vec<u8>), NoValue>,
 }
 
 impl Shown {
@@ -30,7 +38,7 @@ impl Shown {
                 bytes,
             )
         };
-        let result = result.map(typed);
+        let result = result.map(typed).map_err(NoValue::Abort);
         let (words, meaning) = match &result {
             Ok((data_type, bytes)) => (
                 words(dictionary, address, *data_type, bytes),
@@ -48,9 +56,21 @@ impl Shown {
         }
     }
 
+    /// An object whose transfer failed, as the node violates the protocol.
+    pub(crate) fn fault(
+        dictionary: Option<Dictionary<'_>>,
+        (address, entry): (Address, Option<&Entry>),
+        why: String,
+    ) -> Self {
+        Self {
+            result: Err(NoValue::Fault(why)),
+            ..Self::new(dictionary, (address, entry), Err(0))
+        }
+    }
+
     /// Returns whether the object has no value at the moment, such as an empty error history.
     pub(crate) fn has_no_data(&self) -> bool {
-        self.result.as_ref().err() == Some(&AbortCode::NoData.code())
+        matches!(self.result, Err(NoValue::Abort(code)) if code == AbortCode::NoData.code())
     }
 
     /// The value in words, or the abort.
@@ -59,7 +79,8 @@ impl Shown {
             Ok((_, bytes)) if bytes.is_empty() => "empty".into(),
             Ok(_) => self.words.clone(),
             Err(_) if self.has_no_data() => "no data".into(),
-            Err(code) => abort(*code),
+            Err(NoValue::Abort(code)) => abort(*code),
+            Err(NoValue::Fault(why)) => Visible(why).to_string(),
         }
     }
 
@@ -81,7 +102,8 @@ impl Shown {
                     value["meaning"] = json!(meaning);
                 }
             }
-            Err(code) => {
+            Err(NoValue::Fault(why)) => value["error"] = json!(why),
+            Err(NoValue::Abort(code)) => {
                 value["abort"] = json!(format!("{code:08X}h"));
                 value["message"] = json!(self.text());
             }

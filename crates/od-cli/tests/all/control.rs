@@ -138,6 +138,35 @@ fn a_frame_that_the_line_does_not_carry_is_not_sent() {
 }
 
 #[test]
+fn a_frame_for_which_the_queue_has_no_room_is_not_sent() {
+    let folder = temporary();
+    let socket = folder.path().join("full");
+    let sim = Sim::start(&["gxmm", "--node-id", "5", "--control", &unix(&socket)]);
+    let alone = sim.ctl(&["line real", "line unplug"]);
+    assert_eq!(alone.code, 0, "{}", alone.err);
+    // Without another node no frame leaves the queue.
+    let mut client = sim.client();
+    let frames = "t0010\r".repeat(1100);
+    client
+        .write_all(format!("O\r{frames}F\r").as_bytes())
+        .expect("a client");
+    let mut byte = [0];
+    while byte != *b"F" {
+        client.read_exact(&mut byte).expect("the answer to F");
+    }
+    let full = sim.ctl(&["605#4000100000000000"]);
+    assert_eq!(full.code, 1, "{}", full.out);
+    assert!(full.err.contains("their queue is full"), "{}", full.err);
+    let twice = sim.ctl(&["send 605#4000100000000000 times 2"]);
+    assert!(
+        twice.code != 0 && !twice.out.contains("sent"),
+        "{}{}",
+        twice.out,
+        twice.err
+    );
+}
+
+#[test]
 fn figures_are_text_and_json() {
     let folder = temporary();
     let socket = folder.path().join("stats");

@@ -28,7 +28,11 @@ impl Live {
                 return;
             };
             match turn {
-                Turn::Frame(frame) => self.frame(&frame, None),
+                Turn::Frame(client, frame) => {
+                    if !self.frame(&frame, None) {
+                        self.control.refused(client, frame);
+                    }
+                }
                 Turn::Changed => self.deliver(),
                 Turn::Answer(number, text) => {
                     self.clients.answer(number, format!("{text}\n").as_bytes());

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant as Clock};
 use od_runtime::{Frame, Instant};
 
 use super::clients::Clients;
-use super::control::Control;
+use super::control::{Control, lost};
 use super::error::Error;
 use super::fleet::Place;
 use super::links::LINKS;
@@ -421,7 +421,11 @@ impl Live {
         drop(clients);
         while let Some(done) = self.console.step(&mut self.bench) {
             match done {
-                Ok(Some(frame)) => self.frame(&frame, console),
+                Ok(Some(frame)) => {
+                    if !self.frame(&frame, console) {
+                        note(&format!("odkit: {}", lost(&frame)));
+                    }
+                }
                 Ok(None) => self.deliver(),
                 Err(why) => note(&format!("odkit: {why}")),
             }
@@ -429,15 +433,20 @@ impl Live {
     }
 
     /// Puts a frame from outside on the bus, with its effects. On a real line the others receive it when it was sent.
-    pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) {
+    /// Returns `false` if the queue for a real line is full, and the frame is lost.
+    pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) -> bool {
         let bus = &mut self.bench.bus;
-        if !bus.line.is_real() {
+        let is_real = bus.line.is_real();
+        if !is_real {
             bus.receive(frame);
             let now = bus.now();
             self.pass_on(frame, now, from);
-        } else if bus.queue(frame) {
+        }
+        let is_taken = !is_real || self.bench.bus.queue(frame);
+        if is_real && is_taken {
             self.sending.push_back((*frame, from));
         }
         self.deliver();
+        is_taken
     }
 }

@@ -60,6 +60,7 @@ pub(super) fn sections(
     node: NodeId,
     options: &Options,
     has_lss: bool,
+    faults: &[String],
 ) -> Vec<Section> {
     let writes = options.writes;
     let section = |name: &str, pairs: Vec<(&str, String)>| Section {
@@ -113,7 +114,7 @@ pub(super) fn sections(
         ("NrOfTXPDO", pdos(0x1800)),
         ("LSS_Supported", u8::from(has_lss).to_string()),
     ]);
-    let lines = [
+    let mut lines = vec![
         format!("Learned by odkit from node {}.", node.raw()),
         "Not known: bit rates, which values are saved, which objects can be mapped.".into(),
         if writes {
@@ -122,8 +123,12 @@ pub(super) fn sections(
             "Limits were not probed (--allow-writes).".to_owned()
         },
     ];
-    let mut comments = vec![("Lines", lines.len().to_string())];
-    comments.extend(["Line1", "Line2", "Line3"].into_iter().zip(lines));
+    lines.extend(faults.iter().cloned());
+    let count = ("Lines".to_owned(), lines.len().to_string());
+    let numbered = (1..).zip(lines);
+    let numbered = numbered.map(|(number, line): (u32, String)| (format!("Line{number}"), line));
+    let comments = std::iter::once(count).chain(numbered);
+    let comments = comments.map(|(key, value)| (Spanned::from(key), Spanned::from(value)));
     let dummies = [
         "Dummy0001",
         "Dummy0002",
@@ -172,6 +177,9 @@ pub(super) fn sections(
             "DummyUsage",
             dummies.map(|name| (name, "0".into())).to_vec(),
         ),
-        section("Comments", comments),
+        Section {
+            name: Spanned::from("Comments".to_owned()),
+            pairs: comments.collect(),
+        },
     ]
 }

@@ -83,7 +83,7 @@ pub fn learn(
         objects.insert(*index, object);
     }
     map(&mut objects);
-    let sections = file::sections(&objects, node, &options, has_lss);
+    let sections = file::sections(&objects, node, &options, has_lss, &probe.faults);
     let mut description = Description { sections, objects };
     file::allow_errors(&mut description);
     Ok(Learned {

@@ -8,7 +8,7 @@ use od_tools::learn::{Options, learn};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_tools::scan::{ScanTimes, scan};
-use od_tools::watch::{By, Source, watch};
+use od_tools::watch::{By, Source, sources, watch};
 use od_wire::{Duration, Frame, Instant};
 
 use crate::id;
@@ -113,6 +113,18 @@ fn a_watch_ends_at_its_time() {
     assert_eq!((done, samples), (Ok(()), 0));
     assert!(slave.now <= until.plus_millis(5), "{:?}", slave.now);
     assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+#[test]
+fn a_value_is_polled_if_the_parameters_of_tpdos_cannot_be_read() {
+    let mut slave = Slave::new(endless);
+    let mut master = Master::new(&mut slave, id(5));
+    let address = Address::new(0x1000, 0);
+    let found = sources(&mut master, &[address]).expect("a node that responds");
+    assert!(
+        matches!(found[..], [Source { by: By::Poll, .. }]),
+        "{found:?}"
+    );
 }
 
 #[test]

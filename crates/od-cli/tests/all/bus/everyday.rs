@@ -154,3 +154,33 @@ fn without_a_file_types_come_from_sizes() {
     assert!(said.contains("20000 bytes"), "{said}");
     assert!(std::fs::read(&back).expect("a file") == image);
 }
+
+#[test]
+fn a_text_in_place_of_a_number_is_refused_in_words() {
+    for (args, right) in [
+        (
+            &["scan", "--listen", "abc"][..],
+            "write a whole number, such as 100",
+        ),
+        (
+            &["scan", "--answer", "99999999999999999999999"],
+            "the number is too large",
+        ),
+        (
+            &["scan", "--bit-rate", "1x"],
+            "write a whole number, such as 100",
+        ),
+        (
+            &["class", "--port", "x"],
+            "write a whole number, such as 100",
+        ),
+        (&["run", "--seed", "-"], "write a whole number, such as 100"),
+    ] {
+        let said = fails(2, args);
+        assert!(said.contains(right), "{args:?}: {said}");
+        assert!(
+            said.contains(&format!("invalid value '{}' for '{}", args[2], args[1])),
+            "{said}"
+        );
+    }
+}

@@ -5,6 +5,7 @@ mod everyday;
 mod links;
 mod setup;
 mod time;
+mod wrong;
 
 use crate::support::odkit;
 

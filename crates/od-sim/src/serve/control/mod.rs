@@ -27,8 +27,8 @@ pub(super) struct Control(Vec<Session>);
 
 /// Effect of a line.
 pub(super) enum Turn {
-    /// This frame goes to the bus.
-    Frame(Frame),
+    /// This frame of a client goes to the bus.
+    Frame(usize, Frame),
     /// Something changed.
     Changed,
     /// This goes to the client.
@@ -48,6 +48,8 @@ struct Session {
     said: Option<String>,
     /// The frame of this line that a real line has not sent, and the time until which its answer waits for it.
     sending: Option<(Frame, Instant)>,
+    /// A frame of this line for which the queue had no room.
+    lost: Option<Frame>,
     has_left: bool,
 }
 
@@ -56,6 +58,13 @@ enum Entry {
     Line,
     Stats(bool),
     Answer(String),
+}
+
+/// The reason why a frame is not on the line, if the queue for it was full.
+pub(super) fn lost(frame: &Frame) -> String {
+    format!(
+        "{frame} is lost: other frames of clients wait for the bus line, and their queue is full; send it again later"
+    )
 }
 
 impl Control {
@@ -90,6 +99,16 @@ impl Control {
         self.0.iter().filter_map(due).min()
     }
 
+    /// The queue for the line was full, and the frame of a client is lost: its line fails.
+    pub(super) fn refused(&mut self, client: usize, frame: Frame) {
+        for session in self.0.iter_mut().filter(|one| one.client == client) {
+            session.lost = Some(frame);
+            if session.sending.take().is_some() {
+                session.answer(Ok(()));
+            }
+        }
+    }
+
     /// Runs the next line that is due.
     pub(super) fn step(&mut self, bench: &mut Bench) -> Option<Turn> {
         let turn = self.0.iter_mut().find_map(|session| session.step(bench));
@@ -109,6 +128,7 @@ impl Session {
             queue: VecDeque::new(),
             said: None,
             sending: None,
+            lost: None,
             has_left: false,
         }
     }
@@ -176,7 +196,7 @@ impl Session {
                 } else if is_last {
                     self.answer(Ok(()));
                 }
-                Turn::Frame(frame)
+                Turn::Frame(client, frame)
             }
             result => {
                 if is_last {
@@ -190,6 +210,10 @@ impl Session {
     /// Answers the line in progress.
     fn answer(&mut self, result: Result<(), Refused>) {
         let said = self.said.take().unwrap_or_default();
+        let result = match self.lost.take() {
+            Some(frame) => result.and(Err(lost(&frame).into())),
+            None => result,
+        };
         let answer = match result {
             Ok(()) => format!("ok {said}"),
             Err(why) => format!("failed {why}"),
