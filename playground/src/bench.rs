@@ -1,31 +1,38 @@
 //! Actions of a user at the bench: power, shafts, switches, faults, EEPROMs, bus line.
 
 use od_sim::journal::frame;
+use od_sim::rig::Rig;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+
+impl Bus {
+    /// The bench, for a call that acts on it: a step of a lesson waits for an act.
+    pub(crate) fn acting(&mut self) -> &mut Rig {
+        self.journal.rig.note_act();
+        &mut self.journal.rig
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
     /// Switches the power.
     #[wasm_bindgen(js_name = setPower)]
     pub fn set_power(&mut self, device: usize, on: bool) {
-        self.journal.rig.set_power(device, on);
+        self.acting().set_power(device, on);
     }
 
     /// Turns the shaft at a speed.
     #[wasm_bindgen(js_name = setRpm)]
     pub fn set_rpm(&mut self, device: usize, rpm: f64) {
-        self.journal
-            .rig
+        self.acting()
             .with(device, |device, now| device.set_rpm(rpm, now));
     }
 
     /// Moves the shaft to a number of revolutions from the sensor's zero point, at once.
     #[wasm_bindgen(js_name = turnTo)]
     pub fn turn_to(&mut self, device: usize, turns: f64) {
-        self.journal
-            .rig
+        self.acting()
             .with(device, |device, now| device.turn_to(turns, now));
     }
 
@@ -33,7 +40,7 @@ impl Bus {
     /// (0–7); they are read at the next start.
     #[wasm_bindgen(js_name = setSwitches)]
     pub fn set_switches(&mut self, device: usize, node: u8, rate: u8) {
-        self.journal.rig.with(device, |device, now| {
+        self.acting().with(device, |device, now| {
             device.set_node_switch(node, now);
             device.set_bitrate_switch(rate, now);
         });
@@ -43,8 +50,7 @@ impl Bus {
     #[wasm_bindgen(js_name = setFault)]
     pub fn set_fault(&mut self, device: usize, name: &str, broken: bool) -> bool {
         let found = self
-            .journal
-            .rig
+            .acting()
             .with(device, |device, now| device.set_fault(name, broken, now));
         found.unwrap_or_default()
     }
@@ -52,7 +58,7 @@ impl Bus {
     /// Lets a shaft follow a profile from now on: pairs of rpm and milliseconds. An empty profile
     /// leaves the shaft as it is.
     pub fn follow(&mut self, device: usize, steps: &[f64], repeats: bool) {
-        self.journal.rig.follow(device, steps, repeats);
+        self.acting().follow(device, steps, repeats);
     }
 
     /// Sends a frame every `micros` from now on; 0 ends it. `key` identifies the cyclic frame.
@@ -66,7 +72,7 @@ impl Bus {
         micros: f64,
     ) {
         if let Some(frame) = frame(id, data, extended, remote) {
-            self.journal.rig.repeat(key, frame, micros.max(0.0) as u64);
+            self.acting().repeat(key, frame, micros.max(0.0) as u64);
         }
     }
 
@@ -83,24 +89,21 @@ impl Bus {
         let Some(frame) = frame(id, data, false, false) else {
             return;
         };
-        self.journal
-            .rig
+        self.acting()
             .with(device, |device, now| device.handle_frame(now, &frame));
     }
 
     /// Writes bytes to a device's EEPROM; they take effect at the next start.
     #[wasm_bindgen(js_name = setEeprom)]
     pub fn set_eeprom(&mut self, device: usize, bytes: &[u8]) {
-        self.journal
-            .rig
+        self.acting()
             .with(device, |device, _| device.set_eeprom(bytes));
     }
 
     /// Cuts the power of a device during a write to its EEPROM, after this number of bytes.
     #[wasm_bindgen(js_name = cutPowerAfter)]
     pub fn cut_power_after(&mut self, device: usize, bytes: usize) {
-        self.journal
-            .rig
+        self.acting()
             .with(device, |device, _| device.cut_power_after(bytes));
     }
 
@@ -108,7 +111,7 @@ impl Bus {
     /// (none: that of the first device).
     #[wasm_bindgen(js_name = setLine)]
     pub fn set_line(&mut self, real: bool, terminators: u8, rate: Option<u16>) {
-        let line = &mut self.journal.rig.bus.line;
+        let line = &mut self.acting().bus.line;
         line.set_real(real);
         (line.terminators, line.bit_rate) = (terminators, rate);
     }
@@ -122,13 +125,13 @@ impl Bus {
     /// Connects or disconnects a participant: 0 is the program, devices count from 1.
     #[wasm_bindgen(js_name = setPlugged)]
     pub fn set_plugged(&mut self, station: usize, plugged: bool) {
-        self.journal.rig.bus.line.set_plugged(station, plugged);
+        self.acting().bus.line.set_plugged(station, plugged);
     }
 
     /// Restarts the CAN controller of a participant after bus-off.
     #[wasm_bindgen(js_name = restartController)]
     pub fn restart_controller(&mut self, station: usize) {
-        self.journal.rig.bus.restart_controller(station);
+        self.acting().bus.restart_controller(station);
         self.journal.rig.collect_frames();
     }
 }

@@ -42,7 +42,7 @@ impl Bus {
         let node_id = valid(node_id)?;
         let kind = od_devices::find(name)
             .ok_or_else(|| JsError::new(&format!("device `{name}` does not exist")))?;
-        Ok(self.journal.rig.put_kind(kind, node_id, place))
+        Ok(self.acting().put_kind(kind, node_id, place))
     }
 
     /// Puts the device of an EDS or DCF text on the bus and switches it on.
@@ -65,7 +65,7 @@ impl Bus {
             lenient: lenient.unwrap_or_default(),
         };
         let (device, found) = VirtualDevice::read_eds(text, options);
-        let device = device.map(|device| self.journal.rig.put(device, place));
+        let device = device.map(|device| self.acting().put(device, place));
         let diagnostics = findings(&found, text);
         Ok(EdsResult {
             device,
@@ -77,7 +77,7 @@ impl Bus {
     /// Takes a device off the bus; the numbers of later devices go down by one.
     #[wasm_bindgen(js_name = removeDevice)]
     pub fn remove_device(&mut self, device: usize) {
-        self.journal.rig.remove(device);
+        self.acting().remove(device);
     }
 
     /// A name to show.
@@ -98,7 +98,7 @@ impl Bus {
     /// frame counts.
     pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
         if let Some(frame) = frame(id, data, extended, remote) {
-            self.journal.rig.send(&frame);
+            self.acting().send(&frame);
         }
     }
 

@@ -13,7 +13,7 @@ import { real } from './texts/real';
 import { seeing } from './texts/seeing';
 
 /** Texts with several words that are the same in both languages: what a user types, names of formats and of commands. */
-const SAME = /^nmt |^emcy|^601#|^CAN-ID # |\(Wireshark\)|^(Vector|PEAK) |^Filter: node:5|^slave 5|^Enter Pre-operational$/;
+const SAME = /^nmt |^emcy|^601#|^CAN-ID # |\(Wireshark\)|^(Vector|PEAK) |^Filter: node:5|^(slave|expect|write|heartbeat|sync) \d|^Enter Pre-operational$/;
 
 /** Places at which the German catalogue lacks a text of the English one, has one more, or has it in English. */
 function differences(english: unknown, german: unknown, place: string): string[] {

@@ -97,8 +97,8 @@ impl Rig {
         result.map(|_| ()).map_err(|stop| stop.to_string().into())
     }
 
-    /// Tells the lesson that the learner acts.
-    pub(crate) fn note_act(&mut self) {
+    /// Tells the lesson that the learner acts. A step of a lesson is done only after an act in it.
+    pub fn note_act(&mut self) {
         if let Some(run) = &mut self.lesson {
             run.progress.acted();
         }

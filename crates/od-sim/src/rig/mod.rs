@@ -307,7 +307,8 @@ impl Rig {
 
     fn show_lesson_disturbance(&mut self, _: Instant) {}
 
-    pub(crate) fn note_act(&mut self) {}
+    /// A lesson would count this as an act of the learner; this bench has none.
+    pub fn note_act(&mut self) {}
 
     fn check_lesson(&mut self) {}
 

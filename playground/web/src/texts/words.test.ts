@@ -19,7 +19,7 @@ test('the words of frames in German; names of objects and values stay', () => {
     ['Node 5: 8130h life guard or heartbeat error, error register 11h, 00 00 00 00 00', 'Knoten 5: 8130h Fehler bei Life Guarding oder Heartbeat, Fehlerregister 11h, 00 00 00 00 00'],
     ['TPDO1 Position value = 5', 'TPDO1 Position value = 5'],
     ['Configure node ID 5', 'Node-ID einstellen: 5'],
-    ['Switch state selective, serial number 1268h', 'Zustand selektiv wechseln, Serial Number 1268h'],
+    ['Switch state selective, serial number 1268h', 'Zustand selektiv wechseln, Seriennummer 1268h'],
     ['Store configuration: done', 'Konfiguration speichern: erledigt'],
     ['Switch state global: 2 bytes, but an LSS message has 8 (CiA 305)', 'Zustand global wechseln: 2 Bytes, aber eine LSS-Nachricht hat 8 (CiA 305)'],
     ['70000 does not fit UNSIGNED16', '70000 passt nicht in UNSIGNED16'],
