@@ -43,7 +43,7 @@ fn lines_act_on_a_running_bench_and_are_answered() {
     assert_eq!(done.code, 0, "{}", done.err);
     assert_eq!(
         done.out,
-        "node 5: 6000h:01 Read input.Input 1 = 7\n\
+        "node 5: 6000h:01 Read input.Input 1 = 7: on at bits 0, 1, 2\n\
          node 5: error 4200h (device temperature), error register 09h\n\
          node 5: power off for 20ms, then on\n"
     );

@@ -320,7 +320,7 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
             let set = (0..32).filter(|bit| number >> bit & 1 != 0);
             let set: Vec<String> = set.map(|bit| bit.to_string()).collect();
             let bits = if set.len() == 1 { "bit" } else { "bits" };
-            (!set.is_empty()).then(|| format!("{what}: {bits} {}", set.join(", ")))
+            (!set.is_empty()).then(|| format!("{what} at {bits} {}", set.join(", ")))
         }
         Unit => unit(u32::try_from(number).ok()?),
         Versions => {
@@ -474,8 +474,8 @@ mod tests {
                 Some("code sequence counter-clockwise, scaling enabled"),
             ),
             (406, 0x6060, 0, 1, None),
-            (401, 0x6002, 1, 0x05, Some("inverted: bits 0, 2")),
-            (401, 0x6206, 1, 0x80, Some("takes the error value: bit 7")),
+            (401, 0x6002, 1, 0x05, Some("inverted at bits 0, 2")),
+            (401, 0x6206, 1, 0x80, Some("takes the error value at bit 7")),
             (401, 0x6206, 1, 0, None),
             (401, 0x6A50, 1, 1, Some("the output takes the error value")),
             (
@@ -535,7 +535,7 @@ mod tests {
                 0x0100_0302,
                 Some("profile 3.2, software 1.0"),
             ),
-            (401, 0x6200, 1, 0x81, Some("on: bits 0, 7")),
+            (401, 0x6200, 1, 0x81, Some("on at bits 0, 7")),
             (
                 401,
                 0x1010,
