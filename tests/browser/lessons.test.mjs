@@ -108,6 +108,17 @@ async function takeHints(lesson) {
   }
 }
 
+/** Shows all steps of a lesson, and stays at the end of the last one. */
+async function showSteps(lesson, count) {
+  for (let step = 1; step <= count; step++) {
+    await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
+    await takeHints(lesson);
+    await lesson.getByRole('button', { name: 'Show me' }).click();
+    await lesson.getByText('What just happened').waitFor();
+    if (step < count) await lesson.getByRole('button', { name: 'Continue' }).click();
+  }
+}
+
 const nameOf = (file) => file.replace(/^\d+-|\.md$/g, '');
 /** `cargo test -p od-tests --test lessons` checks all of them; a long run also clicks through the later ones. */
 const BY_CLICKS = files.filter((file) => process.env.ODKIT_LONG || file < '16').map(nameOf).filter((name) => !BY_HAND.includes(name));
@@ -420,13 +431,7 @@ test('without storage the lessons open, the list knows the progress of this visi
 test('a finished lesson offers the next one', async () => {
   const { page, faults, close } = await open({ hash: '#lesson=gear' });
   const lesson = page.locator('od-lesson');
-  for (let step = 1; step <= 3; step++) {
-    await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
-    await takeHints(lesson);
-    await lesson.getByRole('button', { name: 'Show me' }).click();
-    await lesson.getByText('What just happened').waitFor();
-    if (step < 3) await lesson.getByRole('button', { name: 'Continue' }).click();
-  }
+  await showSteps(lesson, 3);
   await lesson.getByRole('button', { name: /^Next: Find the fault: the silent node/ }).click();
   await page.getByRole('heading', { name: 'Find the fault: the silent node' }).waitFor();
   // Before anything is diagnosed, no condition and no row names the cause.
@@ -443,13 +448,7 @@ test('the last lesson says where the final test is', async () => {
     localStorage.setItem('odkit.progress', JSON.stringify(Object.fromEntries(names.map((name) => [name, [1, 1, '2026-01-01']]))));
   });
   const lesson = page.locator('od-lesson');
-  for (let step = 1; step <= 3; step++) {
-    await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
-    await takeHints(lesson);
-    await lesson.getByRole('button', { name: 'Show me' }).click();
-    await lesson.getByText('What just happened').waitFor();
-    if (step < 3) await lesson.getByRole('button', { name: 'Continue' }).click();
-  }
+  await showSteps(lesson, 3);
   await lesson.getByText('Every lesson is done. The final test is in the list of lessons.').waitFor();
   assert.deepEqual(faults, []);
   await close();

@@ -8,7 +8,7 @@ use od_tools::master::Master;
 use od_tools::objects::{self, Asked};
 use od_tools::tap::Tap;
 
-use crate::bus::value::{self, Shown};
+use crate::bus::value::{self, NoValue, Shown};
 use crate::bus::{self, Format};
 use crate::failure::Failure;
 use crate::output::{self, Bar};
@@ -77,8 +77,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let object = (one.address, one.entry.as_ref());
         shown.push(match master.upload(one.address) {
             // The other objects may be read all the same.
-            Err(Error::Protocol(why)) => Shown::fault(dictionary, object, why),
-            read => Shown::new(dictionary, object, Error::or_abort(read)?),
+            Err(Error::Protocol(why)) => Shown::new(dictionary, object, Err(NoValue::Fault(why))),
+            read => {
+                let read = Error::or_abort(read)?.map_err(NoValue::Abort);
+                Shown::new(dictionary, object, read)
+            }
         });
     }
     drop(master);

@@ -9,7 +9,7 @@ use od_tools::master::Master;
 use od_tools::objects;
 use od_tools::tap::Tap;
 
-use crate::bus::value::{self, Shown};
+use crate::bus::value::{self, NoValue, Shown};
 use crate::bus::{self, Bus, Format};
 use crate::failure::{Failure, read_error};
 use crate::output::{self, Bar};
@@ -77,11 +77,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let written = Error::or_abort(master.download(one.address, &one.bytes))?;
         let failed = written.is_err();
         let about = (one.address, one.entry.as_ref());
-        shown.push(Shown::new(
-            dictionary,
-            about,
-            written.map(|()| one.bytes.clone()),
-        ));
+        let written = written.map(|()| one.bytes.clone());
+        let written = written.map_err(NoValue::Abort);
+        shown.push(Shown::new(dictionary, about, written));
         if failed {
             break;
         }

@@ -6,7 +6,7 @@ use od_tools::objects;
 use od_wire::{AbortCode, AbortReason};
 use serde_json::{Value, json};
 
-/// Reason why there is no value.
+/// Reason for a transfer without a value.
 pub(crate) enum NoValue {
     /// The SDO abort code.
     Abort(u32),
@@ -14,7 +14,7 @@ pub(crate) enum NoValue {
     Fault(String),
 }
 
-/// A value that was read or written, or the reason why there is none.
+/// A value that was read or written; if its transfer failed, the reason.
 pub(crate) struct Shown {
     pub(crate) address: Address,
     place: String,
@@ -29,7 +29,7 @@ impl Shown {
     pub(crate) fn new(
         dictionary: Option<Dictionary<'_>>,
         (address, entry): (Address, Option<&Entry>),
-        result: Result<Vec<u8>, u32>,
+        result: Result<Vec<u8>, NoValue>,
     ) -> Self {
         let typed = |bytes: Vec<u8>| {
             let data_type = entry.map(|entry| entry.data_type);
@@ -38,7 +38,7 @@ impl Shown {
                 bytes,
             )
         };
-        let result = result.map(typed).map_err(NoValue::Abort);
+        let result = result.map(typed);
         let (words, meaning) = match &result {
             Ok((data_type, bytes)) => (
                 words(dictionary, address, *data_type, bytes),
@@ -53,18 +53,6 @@ impl Shown {
             words,
             meaning,
             result,
-        }
-    }
-
-    /// An object whose transfer failed, as the node violates the protocol.
-    pub(crate) fn fault(
-        dictionary: Option<Dictionary<'_>>,
-        (address, entry): (Address, Option<&Entry>),
-        why: String,
-    ) -> Self {
-        Self {
-            result: Err(NoValue::Fault(why)),
-            ..Self::new(dictionary, (address, entry), Err(0))
         }
     }
 

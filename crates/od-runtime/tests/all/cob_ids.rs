@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::{Bench, Row, rows, unsigned};
+use crate::support::{Bench, Random, Row, rows, unsigned};
 use od_eds::Value;
 use od_model::{Access, DataType};
 use od_runtime::{Application, Context, Emcy, Event, Instant, NodeId, TimeOfDay};
@@ -166,60 +166,44 @@ fn a_released_cob_id_is_usable_again() {
     assert_eq!(bench.send("181#R8"), ["181#05000000"]);
 }
 
-/// xorshift64*: the same devices on every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 16
-    }
-
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.next() as usize % from.len()]
-    }
-
-    /// A COB-ID that is wrong more often than at random, fixed or with the node ID.
-    fn cob_id(&mut self) -> Value {
-        let id = self.pick(&[
-            0x000,
-            0x001,
-            0x07F,
-            0x080,
-            0x0FF,
-            0x100,
-            0x101,
-            0x180,
-            0x181,
-            0x200,
-            0x580,
-            0x581,
-            0x5FF,
-            0x600,
-            0x601,
-            0x67F,
-            0x6A0,
-            0x6E0,
-            0x6FF,
-            0x700,
-            0x701,
-            0x780,
-            0x790,
-            0x7E5,
-            0x7FF,
-            0x800,
-            0xFFF,
-            0x1_0181,
-            0x1FFF_FFFF,
-        ]);
-        let flags = self.pick(&[0, 0, 0, 1 << 29, 1 << 30, 3 << 29, 1 << 31, 7 << 29]);
-        if self.next().is_multiple_of(2) {
-            Value::NodeId(id | flags)
-        } else {
-            Value::Unsigned(u64::from(id | flags))
-        }
+/// A COB-ID that is wrong more often than at random, fixed or with the node ID.
+fn cob_id(random: &mut Random) -> Value {
+    let id = random.pick(&[
+        0x000,
+        0x001,
+        0x07F,
+        0x080,
+        0x0FF,
+        0x100,
+        0x101,
+        0x180,
+        0x181,
+        0x200,
+        0x580,
+        0x581,
+        0x5FF,
+        0x600,
+        0x601,
+        0x67F,
+        0x6A0,
+        0x6E0,
+        0x6FF,
+        0x700,
+        0x701,
+        0x780,
+        0x790,
+        0x7E5,
+        0x7FF,
+        0x800,
+        0xFFF,
+        0x1_0181,
+        0x1FFF_FFFF,
+    ]);
+    let flags = random.pick(&[0, 0, 0, 1 << 29, 1 << 30, 3 << 29, 1 << 31, 7 << 29]);
+    if random.next().is_multiple_of(2) {
+        Value::NodeId(id | flags)
+    } else {
+        Value::Unsigned(u64::from(id | flags))
     }
 }
 
@@ -270,7 +254,7 @@ fn no_node_sends_with_a_restricted_can_id_or_one_of_another_service() {
         let mut cob_ids = vec![((0x1006, 0), Value::Unsigned(10_000))];
         for address in objects {
             if !random.next().is_multiple_of(4) {
-                cob_ids.push((address, random.cob_id()));
+                cob_ids.push((address, cob_id(&mut random)));
             }
         }
         let mut rows = device(&cob_ids);

@@ -1,24 +1,8 @@
 //! Any frame at any time: no panic, no response to frames for other nodes, no value outside its
 //! limits.
 
-use crate::support::Bench;
+use crate::support::{Bench, Random};
 use od_wire::nmt::State;
-
-/// xorshift64*: the same frames on every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 16
-    }
-
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.next() as usize % from.len()]
-    }
-}
 
 /// A frame that means something more often than at random.
 fn frame(random: &mut Random) -> String {

@@ -10,6 +10,22 @@ use od_runtime::{
     Services,
 };
 
+/// xorshift64*: the same numbers on every run.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 16
+    }
+
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.next() as usize % from.len()]
+    }
+}
+
 /// One row of a dictionary: address, type, access, mappable, default.
 pub type Row = (u16, u8, DataType, Access, bool, Option<Value>);
 

@@ -12,7 +12,7 @@
 //! let mut bench = lesson.set_up(&mut Bare(od_devices::DEVICES)).expect("its devices are built in");
 //! let mut progress = Progress::new(lesson, &mut bench);
 //! bench.bus.set_power(0, true);
-//! progress.acted();
+//! progress.note_act();
 //! pass(&mut bench.bus, &mut progress, 1_000_000);
 //! assert_eq!(progress.poll(), Some(0), "the first step is done");
 //! ```

@@ -159,7 +159,7 @@ impl Progress {
 
     /// Notes that the learner acts on the bench. A step is done only after that, because its
     /// conditions may hold when it begins.
-    pub fn acted(&mut self) {
+    pub fn note_act(&mut self) {
         self.acted = true;
     }
 

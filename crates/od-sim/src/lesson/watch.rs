@@ -28,7 +28,7 @@ impl Host for Watched<'_> {
 
     fn act(&mut self) {
         self.host.act();
-        self.progress.acted();
+        self.progress.note_act();
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {

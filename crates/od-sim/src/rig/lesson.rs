@@ -100,7 +100,7 @@ impl Rig {
     /// Tells the lesson that the learner acts. A step of a lesson is done only after an act in it.
     pub fn note_act(&mut self) {
         if let Some(run) = &mut self.lesson {
-            run.progress.acted();
+            run.progress.note_act();
         }
     }
 

@@ -436,15 +436,15 @@ impl Live {
     /// Returns `false` if the queue for a real line is full, and the frame is lost.
     pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) -> bool {
         let bus = &mut self.bench.bus;
-        let is_real = bus.line.is_real();
-        if !is_real {
+        let mut is_taken = true;
+        if !bus.line.is_real() {
             bus.receive(frame);
             let now = bus.now();
             self.pass_on(frame, now, from);
-        }
-        let is_taken = !is_real || self.bench.bus.queue(frame);
-        if is_real && is_taken {
+        } else if bus.queue(frame) {
             self.sending.push_back((*frame, from));
+        } else {
+            is_taken = false;
         }
         self.deliver();
         is_taken

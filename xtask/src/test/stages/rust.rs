@@ -304,7 +304,7 @@ mod tests {
     use super::{BENCHES, FEATURES, PAGE_CORE, PEER};
     use crate::console::cargo;
 
-    /// What a stage does not build, it does not test.
+    /// A stage tests only what it builds.
     #[test]
     fn all_features_but_defmt_are_built() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
