@@ -278,6 +278,12 @@ mod tests {
         assert_eq!(cable.sample_time(500), 1750);
         // (1750 − 600) / 10.
         assert_eq!(cable.longest(500), 115);
+        // (2000 − 600) / 10, as the lesson `bus-length` says of a sample point at 50 % and 250 kbit/s.
+        let early = Cable {
+            sample_point: 500,
+            ..Cable::default()
+        };
+        assert_eq!(early.longest(250), 140);
         // 5.2 nF × 1.386 × (60 Ω beside 15 kΩ).
         assert_eq!(cable.settling(2, 2), 430);
         // 5.2 nF × 1.386 × 15 kΩ.
@@ -321,6 +327,16 @@ mod tests {
             assert!(cable.first_wrong(frame, 40_000).is_some(), "{frame}");
             assert!(cable.first_wrong(frame, -130_000).is_some(), "{frame}");
         }
+    }
+
+    /// The sentence of the lesson `bus-length` about a clock that is 2 % too slow.
+    #[test]
+    fn a_clock_that_is_2_percent_too_slow_samples_the_next_bit_in_the_seventh_after_an_edge() {
+        // Five dominant bits, a stuff bit and five recessive ones follow the edge of the start of frame.
+        let frame = Frame::standard(0x078, &[]);
+        let cable = Cable::default();
+        assert_eq!(cable.first_wrong(&frame, 20_000), Some(6));
+        assert_eq!(cable.first_wrong(&frame, 10_000), None);
     }
 
     #[test]
