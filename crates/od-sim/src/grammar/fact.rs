@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::{DataType, values};
+use od_model::values;
 use od_wire::NodeId;
 use od_wire::nmt::State;
 
@@ -170,7 +170,7 @@ impl Fact {
                         return found(false, "not known: read the object");
                     }
                     let bytes = one.read(address, now);
-                    found(test.holds(data_type, &bytes)?, show(data_type, &bytes))
+                    found(test.holds(data_type, &bytes)?, test.show(data_type, &bytes))
                 };
                 bus.with(device, look).ok_or_else(gone)?
             }
@@ -186,7 +186,11 @@ impl Fact {
                         Some(test) => test.holds(data_type, &bytes)?,
                         None => one.is_unsaved(&saved, address) == Some(false),
                     };
-                    found(holds, show(data_type, &bytes))
+                    let now = match test {
+                        Some(test) => test.show(data_type, &bytes),
+                        None => values::show(data_type, &bytes),
+                    };
+                    found(holds, now)
                 };
                 bus.with(device, look).ok_or_else(gone)?
             }
@@ -346,10 +350,6 @@ impl Fact {
 
 fn state_name(state: Option<State>) -> &'static str {
     state.map_or("off", State::name)
-}
-
-fn show(data_type: DataType, bytes: &[u8]) -> String {
-    values::show(data_type, bytes)
 }
 
 fn found(holds: bool, now: impl Into<String>) -> Result<Found, String> {

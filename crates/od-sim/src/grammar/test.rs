@@ -100,6 +100,16 @@ impl Test {
         }
     }
 
+    /// Returns a value as the comparison writes its own: in hexadecimal, with all digits of the type, or with both numbers.
+    pub(crate) fn show(&self, data_type: DataType, bytes: &[u8]) -> String {
+        let is_hexadecimal = self.text.starts_with("0x") || self.text.ends_with('h');
+        if !is_hexadecimal || as_number(data_type, bytes).is_none() {
+            return values::show(data_type, bytes);
+        }
+        let digits = bytes.iter().rev().map(|byte| format!("{byte:02X}"));
+        format!("{}h", digits.collect::<String>())
+    }
+
     /// Returns whether a number meets the comparison.
     pub(crate) fn holds_number(&self, value: f64) -> bool {
         let (low, high) = self.text.split_once("..").unwrap_or((&self.text, ""));
@@ -153,5 +163,28 @@ fn number(text: &str) -> Option<f64> {
     match values::integer(text) {
         Some(whole) => Some(whole as f64),
         None => text.parse::<f64>().ok().filter(|value| value.is_finite()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_shown_in_the_base_of_the_comparison() {
+        let shown = |text: &str, data_type, bytes: &[u8]| {
+            let test = Test {
+                how: How::Equal,
+                text: text.into(),
+            };
+            test.show(data_type, bytes)
+        };
+        assert_eq!(shown("0x0237", DataType::Unsigned16, &[0x50, 2]), "0250h");
+        assert_eq!(
+            shown("185h", DataType::Unsigned32, &[5, 2, 0, 0]),
+            "00000205h"
+        );
+        assert_eq!(shown("100", DataType::Unsigned16, &[50, 0]), "50 (32h)");
+        assert_eq!(shown("h", DataType::VisibleString, b"ab"), "\"ab\"");
     }
 }
