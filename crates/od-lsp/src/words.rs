@@ -70,10 +70,10 @@ pub(crate) fn value(
         let name = name.map_or_else(String::new, |name| format!(" ({name})"));
         return Some(format!("maps {}{name}", mapping(mapped)));
     }
-    if let Some(special) = special(at, number) {
+    let profile = standard::profile(description);
+    if let Some(special) = special(at, number, profile) {
         return Some(special);
     }
-    let profile = standard::profile(description);
     let meaning = number
         .and_then(|number| i64::try_from(number).ok())
         .and_then(|number| meaning(profile, at.index, at.sub, number));
@@ -105,8 +105,8 @@ fn plain(entry: &EntryDescription, value: &Value) -> Option<String> {
     }
 }
 
-/// Values of communication objects with a meaning.
-fn special(at: Address, number: Option<i128>) -> Option<String> {
+/// Values with a meaning whose words are not in the table of meanings: numbers with a unit, types and error codes.
+fn special(at: Address, number: Option<i128>, profile: Option<u16>) -> Option<String> {
     let number = u32::try_from(number?).ok()?;
     let [low, high, third, _] = number.to_le_bytes();
     let half = u16::from_le_bytes([low, high]);
@@ -124,6 +124,17 @@ fn special(at: Address, number: Option<i128>) -> Option<String> {
                 ),
             },
         },
+        (0x1003, 1..) => match number >> 16 {
+            0 => error_code(profile, half),
+            more => format!(
+                "{}, additional information {more:04X}h",
+                error_code(profile, half)
+            ),
+        },
+        // The second axis of a drive is 800h higher.
+        (0x6000..=0x9FFF, 0) if profile == Some(402) && at.index % 0x800 == 0x3F => {
+            error_code(profile, half)
+        }
         (0x1006 | 0x1007, 0) => format!("{number} µs"),
         (0x1015 | 0x102A, 0) => format!("inhibit time {}.{} ms", number / 10, number % 10),
         (0x1018, 3) => format!("major revision {}, minor revision {half}", number >> 16),
@@ -148,6 +159,10 @@ fn special(at: Address, number: Option<i128>) -> Option<String> {
         (0x1400..=0x15FF | 0x1800..=0x19FF, 5) => format!("event timer {number} ms"),
         _ => return None,
     })
+}
+
+fn error_code(profile: Option<u16>, code: u16) -> String {
+    format!("{code:04X}h: {}", od_wire::emcy::text(profile, code))
 }
 
 /// A transmission type of a PDO (CiA 301, chapter 7.5.2.37).
@@ -255,6 +270,19 @@ mod tests {
     #[test]
     fn a_value_of_a_communication_object_has_its_meaning() {
         for (index, sub, number, words) in [
+            (0x1003, 1, 0x8130, "8130h: life guard or heartbeat error"),
+            (
+                0x1003,
+                2,
+                0x0001_7121,
+                "7121h: motor blocked, additional information 0001h",
+            ),
+            (
+                0x683F,
+                0,
+                0x2310,
+                "2310h: continuous over-current, device output side",
+            ),
             (0x1800, 2, 1, "synchronous, with every SYNC"),
             (0x1800, 2, 2, "synchronous, once in 2 SYNCs"),
             (0x1400, 2, 2, "synchronous"),
@@ -287,11 +315,12 @@ mod tests {
         ] {
             let address = Address::new(index, sub);
             assert_eq!(
-                special(address, Some(number)).as_deref(),
+                special(address, Some(number), Some(402)).as_deref(),
                 Some(words),
                 "{address}"
             );
         }
-        assert_eq!(special(Address::new(0x1800, 2), Some(241)), None);
+        assert_eq!(special(Address::new(0x1800, 2), Some(241), None), None);
+        assert_eq!(special(Address::new(0x603F, 0), Some(0), Some(401)), None);
     }
 }

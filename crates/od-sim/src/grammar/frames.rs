@@ -130,7 +130,7 @@ impl Frames {
             }
             Self::BootUp => "a boot-up message".into(),
             Self::Emcy(None) => "an EMCY message".into(),
-            Self::Emcy(Some(code)) => format!("EMCY {code:04X}h ({})", words::code_text(*code)),
+            Self::Emcy(Some(code)) => format!("EMCY {code:04X}h ({})", emcy::text(None, *code)),
             Self::Abort(None) => "an SDO abort".into(),
             Self::Abort(Some(code)) => format!("SDO abort {code}"),
             Self::Read(address) => format!("{} is read", label(address)),

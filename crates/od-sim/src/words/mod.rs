@@ -22,7 +22,6 @@ use std::prelude::v1::*;
 use od_runtime::Frame;
 
 pub(crate) use control::command_text as command;
-pub(crate) use emcy::code_text;
 #[cfg(feature = "serve")]
 pub(crate) use emcy::text_of as emcy_text;
 pub use fields::{Field, fields};

@@ -3,10 +3,11 @@
 use std::format;
 use std::prelude::v1::*;
 
+use od_wire::emcy::text;
+
 use crate::diagnose::facts::Facts;
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
-use crate::words::code_text;
 
 pub(super) const RULE: Rule = Rule {
     name: "bus-off",
@@ -51,7 +52,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                     format!(
                         "node {id} reports {:04X}h, {}",
                         emcy.code,
-                        code_text(emcy.code)
+                        text(None, emcy.code)
                     ),
                     emcy.seen.at,
                     ended.unwrap_or(last).seen.at,

@@ -3,10 +3,11 @@
 use std::format;
 use std::prelude::v1::*;
 
+use od_wire::emcy::text;
+
 use crate::diagnose::facts::{Emcy, Facts};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
-use crate::words::code_text;
 
 pub(super) const RULE: Rule = Rule {
     name: "emcy",
@@ -23,7 +24,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             let (Some(first), Some(last)) = (errors.first(), group.last()) else {
                 continue;
             };
-            let meaning = code_text(first.code);
+            let meaning = text(None, first.code);
             found.push(
                 Incident::new(
                     format!("node {id} reports {:04X}h, {meaning}", first.code),
