@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use crate::description::Description;
 use crate::finding::{Check, Finding, sort};
 use crate::log::Log;
+use crate::read::modules::modules;
 use crate::subject::objects;
 
 pub use crate::allow::{Allows, parse_allow};
@@ -49,6 +50,19 @@ pub(crate) fn run(description: &Description, log: &mut Log) {
         }
         let checks = of_objects.iter();
         checks.for_each(|check| check(&object, &mut found));
+        report(&mut found);
+    }
+    // The objects that a device has while a module is plugged in.
+    for module in modules(description) {
+        let own = Description {
+            objects: module.fixed,
+            ..Description::default()
+        };
+        for entry in objects(&own).flat_map(|object| object.entries()) {
+            of_entries
+                .iter()
+                .for_each(|check| check(&entry, &mut found));
+        }
         report(&mut found);
     }
     for check in of_device {

@@ -184,3 +184,35 @@ fn compact_sub_objects_beside_sections_change_no_count() {
         "{fixed}"
     );
 }
+
+#[test]
+fn reserved_bits_are_cleared_and_the_others_stay() {
+    let text = "[1014]\nParameterName=e\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\n\
+        DefaultValue=$NODEID+0x40000080\n[1800]\nParameterName=t\nObjectType=0x9\nSubNumber=3\n\
+        [1800sub0]\nParameterName=n\nDataType=0x0005\nAccessType=const\nDefaultValue=2\n\
+        [1800sub1]\nParameterName=c\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x40000180\n\
+        [1800sub2]\nParameterName=y\nDataType=0x0005\nAccessType=rw\nDefaultValue=253\n";
+    let fixed = fixed(text, Applicability::Unsafe);
+    for right in [
+        "DefaultValue=$NODEID+0x80\n",
+        "DefaultValue=$NODEID+0x180\n",
+    ] {
+        assert!(fixed.contains(right), "{right}: {fixed}");
+    }
+}
+
+#[test]
+fn objects_that_a_list_lacks_are_added_together() {
+    let object = |index: u16| {
+        format!("[{index:04X}]\nParameterName=a\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\n")
+    };
+    let objects: String = (0x2000..0x2003).map(object).collect();
+    let list = "[ManufacturerObjects]\nSupportedObjects=1\n1=0x2001\n";
+    let found = fixed(&format!("{list}{objects}"), Applicability::Unsafe);
+    let right = "SupportedObjects=3\n1=0x2001\n2=0x2000\n3=0x2002\n";
+    assert!(found.contains(right), "{found}");
+    // A list whose count is wrong is corrected before.
+    let wrong = list.replace("=1\n1", "=5\n1");
+    let found = fixed(&format!("{wrong}{objects}"), Applicability::Unsafe);
+    assert!(found.contains(right), "{found}");
+}

@@ -62,6 +62,62 @@ pub(crate) fn at(elements: &[Element], offset: usize) -> Option<(&Element, Optio
     }
 }
 
+/// The start tag at a byte.
+pub(crate) struct Tag<'a> {
+    /// The name of the element, without a prefix.
+    pub(crate) element: &'a str,
+    pub(crate) range: Range<usize>,
+    pub(crate) cursor: Cursor<'a>,
+}
+
+/// The part of a start tag at a byte.
+pub(crate) enum Cursor<'a> {
+    /// The name of an attribute that is typed.
+    Name(Range<usize>),
+    /// The value of the attribute of this name.
+    Value(&'a str, Range<usize>),
+}
+
+/// The start tag at a byte, behind the name of its element.
+pub(crate) fn tag(text: &str, offset: usize) -> Option<Tag<'_>> {
+    let start = text.get(..offset)?.rfind('<')?;
+    let typed = text.get(start + 1..offset)?;
+    let name = typed.split(char::is_whitespace).next()?;
+    if name.len() == typed.len() || !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return None;
+    }
+    let mut open = None;
+    for (at, c) in typed.char_indices() {
+        match (open, c) {
+            (None, '>') => return None,
+            (None, '"' | '\'') => open = Some((c, at)),
+            (Some((quote, _)), _) if quote == c => open = None,
+            _ => {}
+        }
+    }
+    let behind = text.get(offset..)?;
+    let rest = behind.find(['<', '>']).unwrap_or(behind.len());
+    let word = |before: &str| {
+        let end = before.trim_end();
+        let is_other = |c: char| !c.is_ascii_alphanumeric() && c != '_';
+        end.rfind(is_other).map_or(0, |at| at + 1)..end.len()
+    };
+    let cursor = match open {
+        Some((quote, at)) => {
+            let key = typed.get(..at)?.trim_end().strip_suffix('=')?;
+            let end = behind.get(..rest)?.find(quote).unwrap_or(0);
+            Cursor::Value(key.get(word(key))?, start + at + 2..offset + end)
+        }
+        None if typed.ends_with(char::is_whitespace) => Cursor::Name(offset..offset),
+        None => Cursor::Name(start + 1 + word(typed).start..offset),
+    };
+    Some(Tag {
+        element: name.rsplit(':').next()?,
+        range: start..offset + rest,
+        cursor,
+    })
+}
+
 /// The name of the attribute whose value a field is.
 pub(crate) fn name<'a>(text: &'a str, field: &Field) -> &'a str {
     let before = text.get(..field.value.start).unwrap_or_default();

@@ -86,8 +86,8 @@ fn every_sentence_is_used_and_filled() {
     let is_said = |code: &str| {
         cfg!(feature = "xdd")
             || ![
-                "E0113", "E0114", "E0115", "E0121", "E0429", "W0120", "W0204", "W0217", "W0252",
-                "W0318", "W0406", "W0430", "W0638", "W0658",
+                "E0113", "E0114", "E0115", "E0121", "E0124", "E0429", "W0120", "W0123", "W0204",
+                "W0217", "W0252", "W0318", "W0406", "W0430", "W0638", "W0658",
             ]
             .contains(&code)
     };
@@ -218,8 +218,8 @@ fn faults_of_networks() -> Vec<Finding> {
         node("c", 2, receiver),
     ];
     let mut found = crate::network::check(&nodes, None, 10, 0);
-    let list =
-        "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode3DCFName=500\n";
+    let list = "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode2Name=x\nNode3DCFName=500\nNode3Name=x\n\
+        Node3Nmae=y\n[Topology]\n";
     let dcf = |rate: &str| {
         let text = format!("[DeviceComissioning]\nNodeID=2\nBaudrate={rate}\n");
         Ok(crate::load::parse(&text).description)

@@ -11,9 +11,10 @@ use crate::description::Description;
 use crate::finding::Finding;
 use crate::log::Log;
 use crate::rules::network::{
-    w1207_bit_rate_differs, w1207_node_count, w1207_node_id_differs, w1207_node_id_not_valid,
-    w1207_present_not_valid,
+    w1207_bit_rate_differs, w1207_duplicate_section, w1207_key_misspelled, w1207_node_count,
+    w1207_node_id_differs, w1207_node_id_not_valid, w1207_present_not_valid, w1207_same_name,
 };
+use crate::scan::forms::near;
 use crate::scan::lines::{Fault, scan};
 use crate::scan::number::number;
 use crate::scan::section::{Text, TextSection};
@@ -63,9 +64,19 @@ pub fn node_lists(
         start.is_some_and(|start| start.eq_ignore_ascii_case("Topology"))
     };
     let networks = sections.iter().filter(is_network);
+    let mut known: Vec<String> = Vec::new();
     let networks: Vec<_> = networks
-        .map(|section| topology(section, load))
-        .collect::<Result<_, _>>()?;
+        .map(|section| {
+            let mut list = topology(section, load)?;
+            let name = section.name.to_ascii_lowercase();
+            if known.contains(&name) {
+                let finding = w1207_duplicate_section(section.header, &section.name);
+                list.findings.insert(0, finding);
+            }
+            known.push(name);
+            Ok(list)
+        })
+        .collect::<Result<_, String>>()?;
     if networks.is_empty() {
         Err("the section [Topology] is missing".into())
     } else {
@@ -83,6 +94,12 @@ fn topology(
     for is_hex in [false, true] {
         for (key, value) in section.pairs.iter().filter(|(_, value)| !value.is_empty()) {
             let Some((id, what)) = node_key(key).filter(|_| is_hexadecimal(key) == is_hex) else {
+                if !is_hex
+                    && !is_hexadecimal(key)
+                    && let Some(right) = meant(key)
+                {
+                    log.push(w1207_key_misspelled(key, &right));
+                }
                 continue;
             };
             let Some(id) = u8::try_from(id).ok().filter(|id| (1..=127).contains(id)) else {
@@ -109,6 +126,7 @@ fn topology(
         nodes: Vec::new(),
         findings: Vec::new(),
     };
+    let mut names: BTreeMap<&str, u8> = BTreeMap::new();
     for (id, listed) in nodes {
         let present = listed.present.map(|present| (present, number(present)));
         if let Some((given, number)) = present
@@ -138,6 +156,12 @@ fn topology(
                 log.push(w1207_bit_rate_differs(file, rate, first));
             }
         }
+        if let Some(name) = listed.name {
+            match names.get(name.as_ref()) {
+                Some(other) => log.push(w1207_same_name(name, id, *other)),
+                None => drop(names.insert(name.as_ref(), id)),
+            }
+        }
         let name = listed
             .name
             .map_or_else(|| format!("node{id}"), |name| name.to_string());
@@ -156,6 +180,29 @@ fn topology(
     }
     list.findings = log.finish();
     Ok(list)
+}
+
+/// The key of CiA 306-3 that a key misspells: `Node5DCFName` for `Node5DCFNmae`.
+fn meant(key: &str) -> Option<String> {
+    const OF_LIST: [&str; 4] = ["NetName", "NetRefd", "Nodes", "EDSBaseName"];
+    const OF_NODE: [&str; 4] = ["Present", "Name", "Refd", "DCFName"];
+    let at = key.find(|c: char| c.is_ascii_digit());
+    let Some((start, rest)) = at.and_then(|at| key.split_at_checked(at)) else {
+        return near(key, OF_LIST.into_iter()).map(String::from);
+    };
+    let end = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    let number = rest.strip_suffix(end)?;
+    let is_node = start.eq_ignore_ascii_case("Node");
+    let is_known = OF_NODE.iter().any(|own| own.eq_ignore_ascii_case(end));
+    let end = match is_known {
+        true if is_node => return None,
+        true => end,
+        false => near(end, OF_NODE.into_iter())?,
+    };
+    if !is_node {
+        near(start, ["Node"].into_iter())?;
+    }
+    Some(format!("Node{number}{end}"))
 }
 
 /// The part of a node's key behind its number.

@@ -7,7 +7,7 @@ use crate::description::{Description, ObjectDescription};
 use crate::fix::Fix;
 use crate::log::Log;
 use crate::rules::lists::reader::{
-    w0201_section_missing, w0202_object_not_listed, w0203_lists_missing,
+    w0201_section_missing, w0202_listed, w0202_object_not_listed, w0203_lists_missing,
     w0204_supported_objects_count, w0205_list_entry_not_valid, w0206_wrong_list,
     w0207_listed_twice, w0214_number_twice, w0218_index, w0218_number, w0242_list_numbering,
     w0242_renumbered,
@@ -37,9 +37,26 @@ pub(crate) fn check(
         log.push(w0203_lists_missing());
         return;
     }
-    for (index, object) in &description.objects {
+    let mut missing: BTreeMap<List, Vec<u16>> = BTreeMap::new();
+    for index in description.objects.keys() {
         if !listed.contains_key(index) {
-            log.push(w0202_object_not_listed(object.span, *index));
+            missing.entry(List::of(*index)).or_default().push(*index);
+        }
+    }
+    for (list, missing) in missing {
+        let section = lists.get(&list).and_then(|sections| sections.first());
+        // Each of these fixes adds all objects, so a few of them are enough.
+        for (at, index) in missing.iter().enumerate() {
+            let fix = match section {
+                Some(section) if at < 8 => w0202_listed(section, &missing),
+                _ => Fix::unsafe_fix(),
+            };
+            let span = description.objects.get(index).map(|object| object.span);
+            log.push(w0202_object_not_listed(
+                span.unwrap_or_default(),
+                *index,
+                fix,
+            ));
         }
     }
 }

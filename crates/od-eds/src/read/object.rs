@@ -43,7 +43,8 @@ pub(crate) fn object(
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
     let mut unread = Vec::new();
-    let sub_number = sub_number(&mut reader, &mut fields, &mut unread);
+    let found = sections.members.len();
+    let sub_number = sub_number(&mut reader, &mut fields, &mut unread, found);
     let mut count = compact::count(&mut reader, &mut fields, &mut unread);
     if let Some(given) = count.take_if(|_| !sections.members.is_empty()) {
         reader.report(w0324_compact_beside_sections(given.span));
@@ -96,7 +97,9 @@ pub(crate) fn object(
         flags = reader.flags(&mut fields, &mut unread).max(flags);
         if matches!(*code, ObjectCode::Array | ObjectCode::Record) {
             for key in W0325_KEYS.into_iter().filter(|key| fields.has(key.name())) {
-                let place = fields.place(key.name()).unwrap_or(fields.header);
+                let Some(place) = fields.place(key.name()) else {
+                    continue;
+                };
                 reader.report(w0325_value_of_array(place, key, *code));
             }
         }
@@ -270,14 +273,16 @@ fn contradiction(
     Spanned::new(meant, code.span)
 }
 
-/// SubNumber; the inner `None` if it is unreadable.
+/// SubNumber of an object with this many sections of sub-indices; the inner `None` if it is unreadable.
 fn sub_number(
     reader: &mut Reader<'_>,
     fields: &mut Fields<'_>,
     unread: &mut Unread,
+    members: usize,
 ) -> Option<Spanned<Option<u32>>> {
     let key = Key::SubNumber;
     let read =
         |reader: &mut Reader<'_>, given: &Text<'_>| u32::try_from(reader.number(key, given)?).ok();
-    reader.keyed(fields, unread, key, read, w0316_sub_number_not_a_number)
+    let wrong = |given: &Text<'_>| w0316_sub_number_not_a_number(given, members);
+    reader.keyed(fields, unread, key, read, wrong)
 }

@@ -135,7 +135,7 @@ pub(crate) static W1207: Rule = Rule {
     example: "Node5DCFName=drive.dcf, and NodeID=6 in drive.dcf",
     says: "Nodes is {given}, but {count:node is|nodes are} present",
     help: "write `Nodes=0x{count:02X}`",
-    also: &[NODE_ID, PRESENT, OTHER_ID, BIT_RATE],
+    also: &[NODE_ID, PRESENT, OTHER_ID, BIT_RATE, KEY, NAME, SECTION],
     ..Rule::of("W1207")
 };
 
@@ -162,6 +162,40 @@ const BIT_RATE: Form = Form {
     says: "Baudrate is {own} in the DCF, but {first} in that of an earlier node",
     help: "write one Baudrate in the DCFs of all nodes",
 };
+
+/// Sentence for a key that looks like one of CiA 306-3.
+const KEY: Form = Form {
+    says: "`{key}` is not a key of a node list",
+    help: "write `{right}`",
+};
+
+/// Sentence for the name of two nodes.
+const NAME: Form = Form {
+    says: "node {id} has the name `{given}`, as node {other} has",
+    help: "give each node a name of its own: it is the name of its concise DCF",
+};
+
+/// Sentence for a second section of the same name.
+const SECTION: Form = Form {
+    says: "duplicate section [{given}]",
+    help: "move the nodes of both into one section, or number the sections of several networks",
+};
+
+/// The finding about a key that is probably misspelled, with the right one.
+pub(crate) fn w1207_key_misspelled(key: &Text<'_>, right: &str) -> Finding {
+    let finding = W1207.at(key.span).form(&KEY).fact("key", key.as_ref());
+    finding.fact("right", right)
+}
+
+pub(crate) fn w1207_same_name(name: &Text<'_>, id: u8, other: u8) -> Finding {
+    let finding = W1207.given(name).form(&NAME).severity_of(Error);
+    finding.fact("id", id).fact("other", other)
+}
+
+pub(crate) fn w1207_duplicate_section(header: Span, name: &Text<'_>) -> Finding {
+    let finding = W1207.at(header).form(&SECTION);
+    finding.fact("given", name.as_ref())
+}
 
 pub(crate) fn w1207_node_count(given: &Text<'_>, count: usize) -> Finding {
     W1207.given(given).fact("count", count)

@@ -34,6 +34,8 @@ table! {
     W0120 (xdd)
     E0121 (xdd)
     W0122
+    W0123 (xdd)
+    E0124 (xdd)
 }
 
 pub(crate) static W0101: Rule = Rule {
@@ -438,4 +440,65 @@ pub(crate) static W0122: Rule = Rule {
 
 pub(crate) fn w0122_control_character(at: Span, c: char) -> Finding {
     W0122.at(at).fact("code", u32::from(c))
+}
+
+pub(crate) static W0123: Rule = Rule {
+    title: "attribute of an XDD is not as in the schema",
+    why: "A tool that checks a file by the schema rejects the file. odkit ignores the value.",
+    source: "CiA 311, schema of the profiles",
+    fixability: Fixability::Unsafe,
+    says: "`{given}` is not a valid {name}",
+    help: "write {right}{fix}",
+    also: &[W0123_MISSING],
+    ..Rule::of("W0123")
+};
+
+/// Sentence for an attribute that the schema requires.
+const W0123_MISSING: Form = Form {
+    says: "attribute {name} of {element} is missing",
+    help: "add `{name}=\"…\"`",
+};
+
+/// The finding about an attribute that has another form than the one in words.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn w0123_attribute_not_valid(
+    given: &Spanned<String>,
+    name: &str,
+    right: String,
+) -> Finding {
+    let finding = W0123.given(given).fact("name", name);
+    finding.fact("right", right)
+}
+
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn w0123_attribute_missing(at: Span, element: &str, name: &str) -> Finding {
+    let finding = W0123.at(at).form(&W0123_MISSING).fact("name", name);
+    finding.fact("element", element)
+}
+
+pub(crate) static E0124: Rule = Rule {
+    buildable: true,
+    title: "uniqueID of an XDD does not belong to one element",
+    why: "A tool cannot tell which element is meant, and a tool that checks a file by the schema rejects the file. odkit uses the first of two elements.",
+    source: "CiA 311, uniqueID and references to it",
+    says: "uniqueID `{given}` belongs to another element, too",
+    help: "give each element a uniqueID of its own",
+    also: &[E0124_MISSING],
+    ..Rule::of("E0124")
+};
+
+/// Sentence for a reference that leads to no element.
+const E0124_MISSING: Form = Form {
+    says: "no element has the uniqueID `{given}`",
+    help: "write the uniqueID of an element of this file, or remove the reference",
+};
+
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0124_id_twice(given: &Spanned<String>, first: Span) -> Finding {
+    E0124.given(given).related(first, FIRST)
+}
+
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0124_id_missing(given: &Spanned<String>) -> Finding {
+    E0124.given(given).form(&E0124_MISSING)
 }

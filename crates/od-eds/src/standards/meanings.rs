@@ -32,9 +32,13 @@ enum What {
     Unit,
     /// Version of the profile and of the software.
     Versions,
+    /// A time in tenths of an hour; all bits are set in a device that does not count it.
+    Hours,
+    /// Bits that can be set in byte 0; byte 1 is the retry factor, bytes 2 and 3 are the guard time.
+    Assignment(&'static [(u8, &'static str)]),
 }
 
-use What::{Bits, Channels, Patterns, Unit, Values, Versions};
+use What::{Assignment, Bits, Channels, Hours, Patterns, Unit, Values, Versions};
 
 const fn row(profile: u16, first: u16, last: u16, subs: (u8, u8), what: What) -> Row {
     Row {
@@ -124,7 +128,7 @@ const TABLE: &[Row] = &[
         (3, "does not start the slaves"), (4, "resets all nodes if a mandatory slave fails"), (5, "flying master"),
         (6, "stops all nodes if a mandatory slave fails"),
     ])),
-    row(0, 0x1F81, 0x1F81, ALL, Bits(&[
+    row(0, 0x1F81, 0x1F81, ALL, Assignment(&[
         (0, "slave of this master"), (2, "is booted again after an error control event"), (3, "mandatory slave"),
         (4, "is not reset while it is Operational"), (5, "its program is verified"), (6, "its program is updated"),
         (7, "its configuration is restored (1F8Ah)"),
@@ -295,6 +299,7 @@ const TABLE: &[Row] = &[
         (4, "battery charge"), (5, "reference point"),
     ])),
     row(406, 0x6507, 0x6507, VAR, Versions),
+    row(406, 0x6508, 0x6508, VAR, Hours),
 ];
 
 /// Returns the meaning of a value of an object in a device of this profile: `profile position` for
@@ -307,8 +312,7 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
             Some(value.2.to_string())
         }
         Bits(bits) => {
-            let set = bits.iter().filter(|(bit, _)| number >> bit & 1 != 0);
-            let set: Vec<&str> = set.map(|(_, name)| *name).collect();
+            let set = set_bits(bits, number);
             (!set.is_empty()).then(|| set.join(", "))
         }
         Patterns(patterns) => {
@@ -329,7 +333,30 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
                 "profile {high}.{low}, software {software}.{software_low}"
             ))
         }
+        Hours if number == 0xFFFF_FFFF => Some("not counted".into()),
+        Hours => Some(format!("{}.{} h", number / 10, number % 10)),
+        Assignment(bits) => {
+            let [_, retry, low, high] = u32::try_from(number).ok()?.to_le_bytes();
+            let guard = u16::from_le_bytes([low, high]);
+            let mut said: Vec<String> = set_bits(bits, number)
+                .into_iter()
+                .map(String::from)
+                .collect();
+            if retry != 0 {
+                said.push(format!("retry factor {retry}"));
+            }
+            if guard != 0 {
+                said.push(format!("guard time {guard} ms"));
+            }
+            (!said.is_empty()).then(|| said.join(", "))
+        }
     }
+}
+
+/// The meanings of the bits that are set.
+fn set_bits(bits: &[(u8, &'static str)], number: i64) -> Vec<&'static str> {
+    let set = bits.iter().filter(|(bit, _)| number >> bit & 1 != 0);
+    set.map(|(_, name)| *name).collect()
 }
 
 /// The row of an object in a device of this profile.
@@ -535,6 +562,8 @@ mod tests {
                 0x0100_0302,
                 Some("profile 3.2, software 1.0"),
             ),
+            (406, 0x6508, 0, 1234, Some("123.4 h")),
+            (406, 0x6508, 0, 0xFFFF_FFFF, Some("not counted")),
             (401, 0x6200, 1, 0x81, Some("on at bits 0, 7")),
             (
                 401,
@@ -556,6 +585,11 @@ mod tests {
         assert_eq!(
             slave.as_deref(),
             Some("slave of this master, its configuration is restored (1F8Ah)")
+        );
+        let guarded = meaning(None, 0x1F81, 5, 0x0064_0301);
+        assert_eq!(
+            guarded.as_deref(),
+            Some("slave of this master, retry factor 3, guard time 100 ms")
         );
         assert_eq!(meaning(None, 0x1F80, 0, 1).as_deref(), Some("NMT master"));
     }

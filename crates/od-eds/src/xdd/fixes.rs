@@ -5,7 +5,8 @@ use alloc::string::String;
 
 use crate::fix::{Action, Edit, Fix};
 use crate::scan::number::number;
-use crate::xdd::objects::{ACCESS_TYPES, ACCESSES, ATTRIBUTES, MAPPINGS};
+use crate::xdd::objects::{ACCESS_TYPES, ACCESSES, MAPPINGS};
+use crate::xdd::schema;
 
 /// Returns the fix in the form of CiA 311; `None` if one of its edits changes more than the value
 /// or the name of an attribute.
@@ -25,7 +26,7 @@ fn is_name(edit: &Edit, text: &str) -> bool {
     edit.action == Action::Replace
         && before.ends_with(char::is_whitespace)
         && behind.trim_start().starts_with('=')
-        && ATTRIBUTES.contains(&edit.text.as_str())
+        && schema::is_attribute(&edit.text)
 }
 
 /// The new value of the attribute whose whole value an edit replaces.
@@ -71,7 +72,11 @@ fn value(edit: &Edit, text: &str) -> Option<String> {
             let is_plain = !given.contains(['<', '>', '&', '"', '\'']);
             is_plain.then(|| given.into())
         }
-        _ => None,
+        "actualBaudRate" => {
+            let rate = number(given.strip_suffix(" Kbps").unwrap_or(given))?;
+            Some(format!("{rate} Kbps"))
+        }
+        name => schema::has_word(name, given).then(|| given.into()),
     }
 }
 

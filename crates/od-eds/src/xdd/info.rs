@@ -8,9 +8,11 @@ use roxmltree::Node;
 
 use crate::rules::lists::reader::w0252_in_xdd;
 use crate::rules::standard::w0638_dcf_bit_rate::w0638_default_not_supported;
+use crate::rules::text::w0123_attribute_not_valid;
 use crate::scan::forms;
 use crate::scan::section::TextSection;
 use crate::span::{Span, Spanned};
+use crate::xdd::schema;
 use crate::xdd::source::Made;
 use crate::xdd::source::{Reader, below, children};
 
@@ -28,6 +30,7 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
     }
     made.extend(device_info(root, reader));
     made.extend(dummies(root, reader));
+    made.extend(channels(root, reader));
     made.extend(comments(root, reader));
     made.extend(commissioning(root, reader));
     made
@@ -56,15 +59,28 @@ fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Tex
         "EDSVersion",
         Some(Spanned::new("4.0".into(), reader.tag(body))),
     );
+    let take_as = |name, form| take(name).filter(|given| schema::fits(form, given));
     let description = below(root, "productText")
         .flat_map(|text| children(text, "description"))
         .find_map(|description| reader.text(description));
     made.put("Description", description);
-    made.put("CreationTime", take("fileCreationTime").map(time));
-    made.put("CreationDate", take("fileCreationDate").map(date));
+    made.put(
+        "CreationTime",
+        take_as("fileCreationTime", schema::Value::Time).map(time),
+    );
+    made.put(
+        "CreationDate",
+        take_as("fileCreationDate", schema::Value::Date).map(date),
+    );
     made.put("CreatedBy", take("fileCreator"));
-    made.put("ModificationTime", take("fileModificationTime").map(time));
-    made.put("ModificationDate", take("fileModificationDate").map(date));
+    made.put(
+        "ModificationTime",
+        take_as("fileModificationTime", schema::Value::Time).map(time),
+    );
+    made.put(
+        "ModificationDate",
+        take_as("fileModificationDate", schema::Value::Date).map(date),
+    );
     made.put("ModifiedBy", take("fileModifiedBy"));
     made.placed
 }
@@ -159,10 +175,7 @@ fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &mut Reader<'_>) {
         }
     }
     for one in &given {
-        let is_known = RATES.iter().any(|rate| **one == format!("{rate} Kbps"));
-        if !is_known && !one.starts_with("auto") {
-            reader.log.push(w0252_in_xdd(one));
-        }
+        spelled(one, reader);
     }
     for rate in RATES {
         let found = given.iter().find(|given| kbits(given) == Some(rate));
@@ -175,6 +188,15 @@ fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &mut Reader<'_>) {
                 Some(Spanned::new(flag.into(), span)),
             );
         }
+    }
+}
+
+/// Reports a bit rate that is not a word of the schema.
+fn spelled(given: &Spanned<String>, reader: &mut Reader<'_>) {
+    let is_known = RATES.iter().any(|rate| **given == format!("{rate} Kbps"));
+    if !is_known && !given.starts_with("auto") {
+        let meant = kbits(given).filter(|meant| RATES.contains(meant));
+        reader.log.push(w0252_in_xdd(given, meant));
     }
 }
 
@@ -198,7 +220,7 @@ fn flag(given: Spanned<String>) -> Spanned<String> {
 }
 
 /// `<dummy entry="Dummy0005=1"/>`
-fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'static>> {
+fn dummies(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Option<TextSection<'static>> {
     let usage = below(root, "dummyUsage").next()?;
     let mut made = Made::new("DummyUsage", reader.tag(usage));
     for dummy in children(usage, "dummy") {
@@ -206,6 +228,9 @@ fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'stati
             continue;
         };
         let Some((key, value)) = entry.split_once('=') else {
+            let right = "a data type and 0 or 1, such as `Dummy0005=1`".to_string();
+            let finding = w0123_attribute_not_valid(&entry, "entry", right);
+            reader.log.push(finding);
             continue;
         };
         // Other texts cannot be keys of an EDS.
@@ -218,8 +243,50 @@ fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'stati
     Some(made.placed)
 }
 
-fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'static>> {
+/// The segments of a programmable device, as `[DynamicChannels]`.
+fn channels(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'static>> {
+    let channels = below(root, "dynamicChannels").next()?;
+    let header = reader.tag(channels);
+    let mut made = Made::new("DynamicChannels", header);
+    let mut count = 0;
+    for channel in children(channels, "dynamicChannel") {
+        count += 1;
+        let hex = |name| {
+            let given = reader.attribute(channel, name)?;
+            Some(Spanned::new(format!("0x{}", given.value), given.span))
+        };
+        made.put(&format!("Type{count}"), hex("dataType"));
+        let access = reader.attribute(channel, "accessType").map(|given| {
+            let of_eds = match given.as_str() {
+                "readOnly" => "ro",
+                "writeOnly" => "wo",
+                "readWriteOutput" => "rww",
+                other => other,
+            };
+            Spanned::new(of_eds.to_string(), given.span)
+        });
+        made.put(&format!("Dir{count}"), access);
+        if let Some((first, last)) = hex("startIndex").zip(hex("endIndex")) {
+            let range = format!("{}-{}", first.value, last.value);
+            made.put(
+                &format!("Range{count}"),
+                Some(Spanned::new(range, first.span)),
+            );
+        }
+        made.put(&format!("PPOffset{count}"), hex("addressOffset"));
+    }
+    made.put("NrOfSeg", Some(Spanned::new(count.to_string(), header)));
+    Some(made.placed)
+}
+
+fn commissioning(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Option<TextSection<'static>> {
     let element = below(root, "deviceCommissioning").next()?;
+    if let Some(given) = reader.attribute(element, "actualBaudRate")
+        && kbits(&given).is_some_and(|rate| RATES.contains(&rate))
+    {
+        spelled(&given, reader);
+    }
+    let reader = &*reader;
     let mut made = Made::new("DeviceComissioning", reader.tag(element));
     let take = |name| {
         reader

@@ -13,6 +13,7 @@ mod info;
 mod limits;
 mod objects;
 mod parameters;
+mod schema;
 mod source;
 mod types;
 mod write;
@@ -28,6 +29,7 @@ use crate::rules::text::{e0113_xml_not_well_formed, e0119_too_large};
 use crate::scan::section::TextSection;
 use crate::xdd::source::{Places, Reader};
 
+pub use schema::{Attribute, Value, attributes};
 pub use write::write;
 
 /// Reads an XDD or an XDC; `file` is its name on the disk, if it has one, and `see` receives its content as sections of an EDS.
@@ -59,6 +61,7 @@ pub(crate) fn parse(
     let root = xml.root();
     let mut sections = info::sections(root, &mut reader);
     sections.append(&mut objects::sections(root, &mut reader));
+    schema::check(root, &mut reader);
     log.append(reader.log);
     see(&sections);
     configured::check(&sections, file, &configured::XDD, log);

@@ -6,16 +6,15 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
+use crate::fix::Fix;
 use crate::rules::lists::reader::w0204_in_xdd;
-use crate::rules::structure::reader::w0318_attribute_misspelled;
 use crate::rules::text::{
     e0114_xdd_index_not_valid, e0115_xdd_parameter_missing, e0121_capitals,
-    w0120_object_type_missing,
+    w0120_object_type_missing, w0123_attribute_not_valid,
 };
 use crate::rules::values::reader::{
     e0429_access_of_parameter, w0406_in_xdd, w0430_other_direction,
 };
-use crate::scan::forms::near;
 use crate::scan::section::TextSection;
 use crate::span::{Span, Spanned};
 use crate::xdd::parameters::Parameter;
@@ -33,7 +32,6 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
     }
     for object in below(root, "CANopenObject") {
         let header = reader.tag(object);
-        known(object, reader);
         let Some(index) = hex(object, "index", 4, reader, header) else {
             continue;
         };
@@ -61,7 +59,6 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
         }
         for element in members {
             let header = reader.tag(element);
-            known(element, reader);
             let Some(sub) = hex(element, "subIndex", 2, reader, header) else {
                 continue;
             };
@@ -78,37 +75,6 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextS
         }
     }
     made
-}
-
-/// The attributes of an object or a sub-object.
-pub(super) const ATTRIBUTES: &[&str] = &[
-    "index",
-    "subIndex",
-    "name",
-    "objectType",
-    "dataType",
-    "accessType",
-    "lowLimit",
-    "highLimit",
-    "defaultValue",
-    "actualValue",
-    "denotation",
-    "PDOmapping",
-    "objFlags",
-    "uniqueIDRef",
-    "subNumber",
-];
-
-/// Reports attributes that are probably misspelled. Tools add attributes of their own.
-fn known(node: Node<'_, '_>, reader: &mut Reader<'_>) {
-    for given in node.attributes() {
-        let name = given.name();
-        let is_known = ATTRIBUTES.iter().any(|own| own.eq_ignore_ascii_case(name));
-        if !is_known && let Some(meant) = near(name, ATTRIBUTES.iter().copied()) {
-            let at = reader.name(&given);
-            reader.log.push(w0318_attribute_misspelled(at, name, meant));
-        }
-    }
 }
 
 /// Compares the counts of an object list with its objects.
@@ -323,6 +289,12 @@ fn access(
             "readWrite" | "readWriteInput" | "readWriteOutput" => "rw",
             _ => "",
         };
+        if matches!(own.as_str(), "rwr" | "rww") {
+            let right = "`const`, `ro`, `wo` or `rw`, and the direction in PDOmapping";
+            let finding = w0123_attribute_not_valid(own, "accessType", right.into());
+            let fix = Fix::unsafe_fix().replace(own.span, "rw");
+            reader.log.push(finding.fix(fix));
+        }
         if !right.is_empty() {
             let finding = e0429_access_of_parameter(own, right);
             reader.log.push(finding);

@@ -105,6 +105,15 @@ impl<'a> Reader<'a> {
         self.places.span(range.start..range.start + end)
     }
 
+    /// The name in the start tag of an element.
+    pub(super) fn tag_name(&self, node: Node<'_, '_>) -> Span {
+        let start = node.range().start + 1;
+        let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>');
+        let rest = &self.places.text[start..];
+        let end = start + rest.find(ends).unwrap_or(rest.len());
+        self.places.span(start..end)
+    }
+
     /// An attribute by its local name, without blanks at its ends; `None` if missing.
     pub(super) fn attribute(&self, node: Node<'_, '_>, name: &str) -> Option<Spanned<String>> {
         let found = node

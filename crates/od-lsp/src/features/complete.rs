@@ -9,7 +9,7 @@ use crate::file::{File, Seen};
 use crate::keys;
 use crate::layout::{Layout, Section};
 use crate::types::{CompletionItem, CompletionList, Markup, TextEdit};
-use crate::xdd;
+use crate::xdd::{self, Cursor};
 
 mod sections;
 mod values;
@@ -65,13 +65,44 @@ pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> CompletionList {
         Some((element, Some(field))) => {
             let name = xdd::name(file.str(), field);
             let choices = values::of_attribute(seen, element.place, name);
-            line.items(VALUE, choices, &field.value)
+            if choices.is_empty() {
+                in_tag(&line)
+            } else {
+                line.items(VALUE, choices, &field.value)
+            }
         }
+        _ if od_eds::is_xml(file.str()) => in_tag(&line),
         _ => in_eds(&line, seen, bytes.start),
     };
     CompletionList {
         is_incomplete: false,
         items,
+    }
+}
+
+/// The completions in a start tag of an XDD: attributes that the element lacks, or the values of an attribute.
+fn in_tag(line: &Line<'_>) -> Vec<CompletionItem> {
+    let text = line.file.str();
+    let Some(tag) = xdd::tag(text, line.offset) else {
+        return Vec::new();
+    };
+    match tag.cursor {
+        Cursor::Name(typed) => {
+            let attributes = od_eds::xdd::attributes(tag.element).iter();
+            let others = attributes.filter(|own| {
+                let has = xdd::attribute(text, &tag.range, own.name);
+                has.is_none()
+            });
+            let choices = others.map(|own| Choice {
+                text: Some(format!("{}=\"\"", own.name)),
+                ..Choice::new(own.name, "")
+            });
+            line.items(PROPERTY, choices.collect(), &typed)
+        }
+        Cursor::Value(name, value) => {
+            let choices = values::of_schema(tag.element, name);
+            line.items(VALUE, choices, &value)
+        }
     }
 }
 

@@ -37,8 +37,10 @@ fn target_at(call: &Call, offset: usize) -> Option<(Target, Range<usize>)> {
 /// The object, or the file, at a byte.
 pub(crate) fn hover(file: &File, offset: usize, find: Find<'_>) -> Option<Hover> {
     let call = call_at(file, offset)?;
-    let base = Base::of(file, &call, find).ok()??;
-    let description = &base.description;
+    let base = Base::of(file, &call, find).ok()?;
+    // A call without a file has only the names of the standards.
+    let none = Description::default();
+    let description = base.as_ref().map_or(&none, |base| &base.description);
     let (said, bytes) = match target_at(&call, offset) {
         Some((target, bytes)) => {
             let mut said = words::heading(description, target.address());
@@ -57,7 +59,8 @@ pub(crate) fn hover(file: &File, offset: usize, find: Find<'_>) -> Option<Hover>
         }
         None => {
             let bytes = call.eds.filter(|bytes| holds(bytes, offset))?;
-            let errors = base.findings.iter().filter(|one| one.is_unsound()).count();
+            let findings = base.as_ref()?.findings.iter();
+            let errors = findings.filter(|one| one.is_unsound()).count();
             let objects = description.objects.len();
             (format!("Objects: {objects}, errors: {errors}"), bytes)
         }

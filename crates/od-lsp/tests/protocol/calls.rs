@@ -73,6 +73,18 @@ fn calls_of_the_macro_use_the_objects_of_their_file() {
 }
 
 #[test]
+fn an_object_of_a_call_without_a_file_has_the_name_of_the_standard() {
+    let uri = "file:///w/src/own.rs";
+    let text = "odkit::object_dictionary! {\n    pub mod own {\n        add 0x1017 { name = \"h\"; type = u16 }\n    }\n}\n";
+    let mut client = Client::new(Files::default(), json!({}));
+    client.open(uri, text);
+    let params = json!({ "textDocument": { "uri": uri }, "position": place(text, "0x10|17") });
+    let hover = client.request("textDocument/hover", params);
+    let said = hover["contents"]["value"].as_str().unwrap();
+    assert!(said.contains("producer heartbeat time (CiA 301)"), "{said}");
+}
+
+#[test]
 fn a_row_with_a_formula_counts() {
     let mut client = Client::new(Files::default(), json!({}));
     let uri = "file:///w/lib.rs";

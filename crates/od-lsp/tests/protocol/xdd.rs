@@ -263,3 +263,30 @@ fn numbers_have_hints() {
         "{hints:?}"
     );
 }
+
+#[test]
+fn attributes_and_bit_rates_are_completed() {
+    let text = text().replacen(
+        "</ProfileBody>",
+        "<dynamicChannel bitAlignment=\"8\" /><supportedBaudRate value=\"1 Kbps\"/></ProfileBody>",
+        1,
+    );
+    let mut client = client(&text);
+    let mut labels = |mark: &str| {
+        let found = asked(&mut client, "textDocument/completion", &text, mark);
+        let items = found["items"].as_array().unwrap().iter();
+        let labels: Vec<String> = items
+            .map(|item| item["label"].as_str().unwrap().to_owned())
+            .collect();
+        labels
+    };
+    let names = labels("bitAlignment=\"8\" |/>");
+    assert!(names.iter().any(|name| name == "startIndex"), "{names:?}");
+    assert!(
+        !names.iter().any(|name| name == "bitAlignment"),
+        "{names:?}"
+    );
+    let rates = labels("<supportedBaudRate value=\"|");
+    assert_eq!(rates.first().map(String::as_str), Some("10 Kbps"));
+    assert_eq!(rates.len(), 8);
+}

@@ -31,7 +31,7 @@ catalogue! {
     w0248_module_info W0248
     reader W0249
     i0251_dummy_entry_missing I0251
-    reader W0252
+    reader W0252 (xdd)
     w0253_dummy_type W0253
     w0254_object_links W0254
     i0255_changed_before_created I0255

@@ -1,8 +1,10 @@
 //! Rules about lists, sections and keys that the reader reports, because a description no longer
 //! contains the lines.
 
+use alloc::collections::BTreeSet;
 use alloc::format;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{
@@ -16,8 +18,6 @@ use crate::scan::section::{Text, TextSection};
 use crate::span::Span;
 #[cfg(feature = "xdd")]
 use crate::span::Spanned;
-#[cfg(feature = "xdd")]
-use alloc::string::String;
 
 pub(crate) static W0201: Rule = Rule {
     severity: Error,
@@ -43,16 +43,42 @@ pub(crate) static W0202: Rule = Rule {
     title: "object is missing from the lists",
     why: "A tool that follows the lists does not find the object. odkit keeps it.",
     source: "CiA 306-1, object lists",
+    fixability: Fixability::Unsafe,
     says: "{object} is missing from the object lists",
-    help: "add `0x{object:04X}` to [{list}]",
+    help: "add `0x{object:04X}` to [{list}]{fix}",
     ..Rule::of("W0202")
 };
 
-pub(crate) fn w0202_object_not_listed(object: Span, index: u16) -> Finding {
+/// The finding about an object that no list has. The fix is that of [`w0202_listed`].
+pub(crate) fn w0202_object_not_listed(object: Span, index: u16, fix: Fix) -> Finding {
     W0202
         .at(object)
         .index(index)
         .fact("list", List::of(index).name())
+        .fix(fix)
+}
+
+/// The fix that adds all objects that a list lacks; without edits if the numbers of the list are not those from 1 to
+/// SupportedObjects, which other findings are about.
+pub(crate) fn w0202_listed(placed: &TextSection<'_>, missing: &[u16]) -> Fix {
+    let numbers = placed.pairs.iter().filter_map(|(key, _)| number(key));
+    let numbers: BTreeSet<i128> = numbers.collect();
+    let highest = numbers.len() as i128;
+    let is_whole = numbers.first().is_none_or(|first| *first == 1)
+        && numbers.last().is_none_or(|last| *last == highest);
+    let count = placed.get("SupportedObjects");
+    let count = count.filter(|count| number(count) == Some(highest) && is_whole);
+    let (Some(count), Some((last, _))) = (count, placed.pairs.last()) else {
+        return Fix::unsafe_fix();
+    };
+    let lines = (highest + 1..).zip(missing);
+    let lines: Vec<String> = lines
+        .map(|(entry, index)| format!("{entry}=0x{index:04X}"))
+        .collect();
+    let new = highest + missing.len() as i128;
+    Fix::unsafe_fix()
+        .replace(count.span, new.to_string())
+        .below(last.span, lines.join("\n"))
 }
 
 pub(crate) static W0203: Rule = Rule {
@@ -464,7 +490,8 @@ pub(crate) fn w0249_extended_object_missing(header: Span, index: u16, module: u1
 pub(crate) static W0252: Rule = Rule {
     title: "bit rate is not one of CiA 306",
     why: "A tool ignores the key and does not offer the bit rate. odkit keeps the key and ignores it.",
-    source: "CiA 306-1, DeviceInfo; CiA 301, bit rates",
+    source: "CiA 306-1, DeviceInfo; CiA 311, baudRate; CiA 301, bit rates",
+    fixability: Fixability::Unsafe,
     says: "`{name}` is not a key of [DeviceInfo]",
     help: "write BaudRate_10, 20, 50, 125, 250, 500, 800 or 1000, or remove the line",
     also: &[W0252_XDD],
@@ -473,15 +500,20 @@ pub(crate) static W0252: Rule = Rule {
 
 /// Sentence for a bit rate of an XDD.
 const W0252_XDD: Form = Form {
-    says: "`{name}` is not a bit rate of CiA 301",
-    help: "write `10 Kbps`, 20, 50, 125, 250, 500, 800 or `1000 Kbps`, or remove the element",
+    says: "`{name}` is not a bit rate of CiA 311",
+    help: "write `10 Kbps`, 20, 50, 125, 250, 500, 800 or `1000 Kbps`{fix}, or remove the value",
 };
 
-/// The finding about a supported bit rate of an XDD that no bus has.
+/// The finding about a bit rate of an XDD that is not a word of the schema; `meant` is the bit rate in kbit/s that it
+/// probably means.
 #[cfg(feature = "xdd")]
-pub(crate) fn w0252_in_xdd(given: &Spanned<String>) -> Finding {
-    let finding = W0252.at(given.span).form(&W0252_XDD).severity_of(Info);
-    finding.fact("name", given.as_str())
+pub(crate) fn w0252_in_xdd(given: &Spanned<String>, meant: Option<u32>) -> Finding {
+    let finding = W0252.at(given.span).form(&W0252_XDD);
+    let finding = finding.fact("name", given.as_str());
+    match meant {
+        Some(meant) => finding.fix(Fix::unsafe_fix().replace(given.span, format!("{meant} Kbps"))),
+        None => finding,
+    }
 }
 
 /// Returns whether this is a key for a bit rate, whatever the rate.

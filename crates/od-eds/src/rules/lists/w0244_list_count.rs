@@ -2,7 +2,7 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
@@ -13,8 +13,15 @@ pub(crate) static W0244: Rule = Rule {
     fixability: Fixability::Safe,
     says: "NrOfEntries is {given}, but the list has {count:entry|entries}",
     help: "write `NrOfEntries={count}`{fix}",
+    also: &[BEYOND],
     check: Check::Device(check),
     ..Rule::of("W0244")
+};
+
+/// Sentence for a list with a gap in its numbers.
+const BEYOND: Form = Form {
+    says: "entry {number} is beyond NrOfEntries, which is {given}: the numbers have a gap",
+    help: "number the entries from 1 to {given}",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
@@ -32,6 +39,18 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             count
         };
         let given = section.get("NrOfEntries");
+        let numbers = || {
+            section
+                .pairs
+                .iter()
+                .filter_map(|(key, _)| Some((key, number(key)?)))
+        };
+        if let Some(given) = given.filter(|given| number(given) == Some(count as i128))
+            && let Some((key, beyond)) = numbers().find(|(_, own)| *own > count as i128)
+        {
+            let finding = W0244.at(key.span).form(&BEYOND).fact("number", beyond);
+            findings.push(finding.fact("given", given.as_str()));
+        }
         if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
             let finding = W0244.at(given.span).fact("given", given.as_str());
             let finding = finding.fact("count", count);

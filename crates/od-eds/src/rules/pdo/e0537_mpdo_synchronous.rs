@@ -1,6 +1,7 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::pdo::shared::transmission_type;
 use crate::subject::{Object, start_number};
 use od_model::Address;
@@ -10,8 +11,9 @@ pub(crate) static E0537: Rule = Rule {
     title: "multiplexed PDO is synchronous",
     why: "A multiplexed PDO is event-driven: with a synchronous type the device cannot send what changes, and a receiver takes the values at the wrong time.",
     source: "CiA 301, MPDO protocol",
+    fixability: Fixability::Unsafe,
     says: "transmission type {given} is not valid for a multiplexed PDO",
-    help: "write 254 or 255",
+    help: "write 254{fix} or 255",
     check: Check::Object(check),
     ..Rule::of("E0537")
 };
@@ -29,6 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             .on(object, given.span)
             .about(Address::new(object.index, 2));
         let finding = finding.fact("given", given.value.raw());
+        let finding = finding.fix(Fix::unsafe_fix().replace(given.span, "254"));
         findings.push(finding.related(count.span, "multiplexed by this number"));
     }
 }

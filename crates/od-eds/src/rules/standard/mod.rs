@@ -41,6 +41,7 @@ catalogue! {
     w0659_identity_with_node_id W0659
     w0660_slave_bit_missing W0660
     w0661_group_messaging W0661
+    w0662_slaves_without_master W0662
 }
 
 pub(crate) mod e0606_identity_differs;
@@ -72,3 +73,4 @@ pub(crate) mod w0656_guarding_and_heartbeat;
 pub(crate) mod w0659_identity_with_node_id;
 pub(crate) mod w0660_slave_bit_missing;
 pub(crate) mod w0661_group_messaging;
+pub(crate) mod w0662_slaves_without_master;

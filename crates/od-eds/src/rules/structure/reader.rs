@@ -167,13 +167,16 @@ pub(crate) static W0316: Rule = Rule {
     title: "SubNumber is not a number",
     why: "A tool cannot tell how many sub-objects to read. odkit counts the sections.",
     source: "CiA 306-1, object sections",
+    fixability: Fixability::Unsafe,
     says: "{SubNumber} `{given}` is not a number",
-    help: "write the number of sub-index sections",
+    help: "write the number of sub-index sections, {count}{fix}",
     ..Rule::of("W0316")
 };
 
-pub(crate) fn w0316_sub_number_not_a_number(given: &Text<'_>) -> Finding {
-    W0316.given(given).key(Key::SubNumber)
+/// The finding about the SubNumber of an object with this many sections of sub-indices.
+pub(crate) fn w0316_sub_number_not_a_number(given: &Text<'_>, count: usize) -> Finding {
+    let finding = W0316.given(given).key(Key::SubNumber).fact("count", count);
+    finding.fix(Fix::unsafe_fix().replace(given.span, count.to_string()))
 }
 
 pub(crate) static W0317: Rule = Rule {
@@ -198,7 +201,7 @@ pub(crate) static W0318: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "`{name}` is not a key of CiA 306 for this section",
     help: "write `{meant}={given}` if this key is meant{fix}",
-    also: &[W0318_XDD],
+    also: &[W0318_XDD, W0318_ELEMENT],
     ..Rule::of("W0318")
 };
 
@@ -207,6 +210,19 @@ const W0318_XDD: Form = Form {
     says: "`{name}` is not an attribute of CiA 311 for this element",
     help: "write `{meant}` if this attribute is meant{fix}",
 };
+
+/// Sentence for an element of an XDD.
+const W0318_ELEMENT: Form = Form {
+    says: "`{name}` is not an element of CiA 311",
+    help: "write `{meant}` if this element is meant, also at its end",
+};
+
+/// The same finding about an element of an XDD.
+#[cfg(feature = "xdd")]
+pub(crate) fn w0318_element_misspelled(at: Span, given: &str, meant: &str) -> Finding {
+    let finding = W0318.at(at).form(&W0318_ELEMENT).fact("name", given);
+    finding.fact("meant", meant)
+}
 
 /// The same finding about an attribute of an XDD.
 #[cfg(feature = "xdd")]
@@ -361,8 +377,9 @@ pub(crate) static W0325: Rule = Rule {
     title: "ARRAY or RECORD has a key of a value",
     why: "Only sub-objects have a value. A tool may read the object as a VAR. odkit keeps the key and ignores it.",
     source: "CiA 306-1, object sections",
+    fixability: Fixability::Unsafe,
     says: "{key} is not a key of an object that is {code}",
-    help: "move the line to the sections of the sub-objects, or remove it",
+    help: "move the line to the sections of the sub-objects, or remove it{fix}",
     ..Rule::of("W0325")
 };
 
@@ -378,7 +395,8 @@ pub(crate) const W0325_KEYS: [Key; 6] = [
 
 /// The finding about such a key.
 pub(crate) fn w0325_value_of_array(place: Span, key: Key, code: ObjectCode) -> Finding {
-    W0325.at(place).key(key).fact("code", code)
+    let finding = W0325.at(place).key(key).fact("code", code);
+    finding.fix(Fix::unsafe_fix().remove_line(place))
 }
 
 pub(crate) static W0342: Rule = Rule {

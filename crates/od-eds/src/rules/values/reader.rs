@@ -57,6 +57,7 @@ pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0406: Rule = Rule {
+    severity: Error,
     buildable: true,
     also: &[W0406_XDD],
     title: "PDOMapping is neither 0 nor 1",
@@ -76,11 +77,7 @@ const W0406_XDD: Form = Form {
 /// The same finding in an XDD, whose schema has other words.
 #[cfg(feature = "xdd")]
 pub(crate) fn w0406_in_xdd(given: &Spanned<String>) -> Finding {
-    W0406
-        .given(given)
-        .key(Key::PdoMapping)
-        .form(&W0406_XDD)
-        .severity_of(Error)
+    W0406.given(given).key(Key::PdoMapping).form(&W0406_XDD)
 }
 
 pub(crate) fn w0406_pdo_mapping_not_valid(given: &Text<'_>) -> Finding {

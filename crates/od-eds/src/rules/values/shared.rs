@@ -1,6 +1,9 @@
 //! Parts of several rules about values: the values of an entry, and values that do not fit their
 //! type.
 
+use alloc::format;
+use alloc::string::String;
+
 use od_model::{DataType, Kind};
 
 use crate::description::Value;
@@ -9,6 +12,35 @@ use crate::finding::{Finding, Form, Rule};
 use crate::scan::section::Text;
 use crate::span::{Span, Spanned};
 use crate::subject::Entry;
+
+/// A part of the numbers of an object that a document reserves.
+pub(crate) enum Reserved {
+    /// The bits of this mask.
+    Bits(u64),
+    /// The number is one of those that are reserved, or not.
+    Number(bool),
+}
+
+impl Reserved {
+    /// Returns whether this number has such a bit, or is reserved.
+    pub(crate) const fn has(&self, number: u64) -> bool {
+        match self {
+            Self::Bits(mask) => number & *mask != 0,
+            Self::Number(is) => *is,
+        }
+    }
+
+    /// The value without the reserved bits, as a file writes it.
+    pub(crate) fn cleared(&self, value: &Value) -> Option<String> {
+        match (self, value) {
+            (Self::Bits(mask), Value::NodeId(offset)) => {
+                Some(format!("$NODEID+0x{:X}", u64::from(*offset) & !mask))
+            }
+            (Self::Bits(mask), Value::Unsigned(number)) => Some(format!("0x{:X}", number & !mask)),
+            _ => None,
+        }
+    }
+}
 
 /// The label at a DataType.
 pub(crate) const DECLARED: &str = "declared as {type} here";

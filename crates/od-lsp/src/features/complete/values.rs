@@ -130,7 +130,12 @@ pub(super) fn of_attribute(seen: &Seen, place: Place, name: &str) -> Vec<Choice>
     match name {
         "dataType" => data_types(|code| format!("{code:04X}")),
         "objectType" => object_codes(matches!(place, Place::Member(..)), |code| format!("{code}")),
-        "accessType" => accesses(),
+        "accessType" => {
+            let mut all = accesses();
+            // The schema gives the direction in PDOmapping.
+            all.retain(|choice| !matches!(choice.label.as_str(), "rwr" | "rww"));
+            all
+        }
         "PDOmapping" => vec![
             Choice::new("no", "the value cannot be mapped into a PDO"),
             Choice::new("default", "a PDO maps the value, and it can be changed"),
@@ -139,6 +144,31 @@ pub(super) fn of_attribute(seen: &Seen, place: Place, name: &str) -> Vec<Choice>
             Choice::new("RPDO", "the value can be mapped into an RPDO only"),
         ],
         "defaultValue" | "actualValue" | "value" => value(seen, at),
+        _ => Vec::new(),
+    }
+}
+
+/// The values that the schema of CiA 311 lists for an attribute.
+pub(super) fn of_schema(element: &str, name: &str) -> Vec<Choice> {
+    if matches!(
+        (element, name),
+        ("supportedBaudRate", "value")
+            | ("baudRate", "defaultValue")
+            | ("deviceCommissioning", "actualBaudRate")
+    ) {
+        let rates = [10, 20, 50, 125, 250, 500, 800, 1000].into_iter();
+        return rates
+            .map(|rate| Choice::new(format!("{rate} Kbps"), format!("{rate} kbit/s")))
+            .collect();
+    }
+    let mut attributes = od_eds::xdd::attributes(element).iter();
+    match attributes.find(|own| own.name == name).map(|own| own.value) {
+        Some(od_eds::xdd::Value::Words(words)) => {
+            words.iter().map(|word| Choice::new(*word, "")).collect()
+        }
+        Some(od_eds::xdd::Value::Flag) => {
+            vec![Choice::new("false", "no"), Choice::new("true", "yes")]
+        }
         _ => Vec::new(),
     }
 }

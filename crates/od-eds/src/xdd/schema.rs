@@ -1,0 +1,532 @@
+//! Elements and attributes of an XDD as the schema of CiA 311 has them: names, required attributes, and the form of their
+//! values. The reader of an element checks the values that it uses; this check is about the others.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use roxmltree::Node;
+
+use crate::fix::Fix;
+use crate::rules::structure::reader::{w0318_attribute_misspelled, w0318_element_misspelled};
+use crate::rules::text::{
+    e0124_id_missing, e0124_id_twice, w0123_attribute_missing, w0123_attribute_not_valid,
+};
+use crate::scan::forms::near;
+use crate::xdd::source::Reader;
+
+/// An attribute of an element.
+pub struct Attribute {
+    /// Its name.
+    pub name: &'static str,
+    /// The form of its value.
+    pub value: Value,
+    /// Whether the schema requires it, and no other rule reports its absence.
+    required: bool,
+}
+
+/// The form of the value of an attribute.
+#[derive(Clone, Copy)]
+pub enum Value {
+    /// A text, or a value that another rule checks.
+    Any,
+    /// One of these words.
+    Words(&'static [&'static str]),
+    /// `true` or `false`.
+    Flag,
+    /// A number from 0 to this one.
+    Number(u32),
+    /// Hexadecimal digits without `0x`, two for each byte.
+    Hex,
+    /// Year, month and day: `2026-11-27`.
+    Date,
+    /// Hour, minute and second: `09:30:00`.
+    Time,
+    /// The uniqueID of another element.
+    Reference,
+    /// The type of a profile of CANopen, which may have a prefix.
+    Profile,
+}
+
+use Value::{Any, Date, Flag, Hex, Number, Profile, Reference, Time, Words};
+
+const fn own(name: &'static str, value: Value) -> Attribute {
+    Attribute {
+        name,
+        value,
+        required: false,
+    }
+}
+
+const fn required(name: &'static str, value: Value) -> Attribute {
+    Attribute {
+        name,
+        value,
+        required: true,
+    }
+}
+
+const BODY: &[Attribute] = &[
+    own("formatName", Any),
+    own("formatVersion", Any),
+    own("fileName", Any),
+    own("fileCreator", Any),
+    own("fileCreationDate", Date),
+    own("fileCreationTime", Time),
+    own("fileModifiedBy", Any),
+    own("fileModificationDate", Date),
+    own("fileModificationTime", Time),
+    own("fileVersion", Any),
+    own("supportedLanguages", Any),
+    own(
+        "deviceClass",
+        Words(&["compact", "modular", "configurable"]),
+    ),
+    own("type", Profile),
+];
+
+/// The values of an object or a sub-object are checked where they are read.
+const OBJECT: &[Attribute] = &[
+    own("index", Any),
+    own("name", Any),
+    own("objectType", Any),
+    own("dataType", Any),
+    own("accessType", Any),
+    own("lowLimit", Any),
+    own("highLimit", Any),
+    own("defaultValue", Any),
+    own("actualValue", Any),
+    own("denotation", Any),
+    own("PDOmapping", Any),
+    own("objFlags", Any),
+    own("uniqueIDRef", Any),
+    own("subNumber", Any),
+    own("rangeSelector", Any),
+];
+
+const SUB_OBJECT: &[Attribute] = &[
+    own("subIndex", Any),
+    own("name", Any),
+    own("objectType", Any),
+    own("dataType", Any),
+    own("accessType", Any),
+    own("lowLimit", Any),
+    own("highLimit", Any),
+    own("defaultValue", Any),
+    own("actualValue", Any),
+    own("denotation", Any),
+    own("PDOmapping", Any),
+    own("objFlags", Any),
+    own("uniqueIDRef", Any),
+    own("rangeSelector", Any),
+];
+
+const PARAMETER: &[Attribute] = &[
+    required("uniqueID", Any),
+    own("access", Any),
+    own("accessList", Any),
+    own("support", Words(&["mandatory", "optional", "conditional"])),
+    own("persistent", Flag),
+    own("offset", Any),
+    own("multiplier", Any),
+    own("templateIDRef", Reference),
+];
+
+const TEXT: &[Attribute] = &[required("lang", Any), own("URI", Any)];
+const UNIQUE: &[Attribute] = &[own("uniqueIDRef", Reference)];
+
+/// The elements whose attributes are checked, by name.
+const ELEMENTS: &[(&str, &[Attribute])] = &[
+    (
+        "CANopenGeneralFeatures",
+        &[
+            own("groupMessaging", Any),
+            own("dynamicChannels", Any),
+            own("selfStartingDevice", Flag),
+            own("SDORequestingDevice", Flag),
+            own("granularity", Any),
+            own("nrOfRxPDO", Any),
+            own("nrOfTxPDO", Any),
+            own("ngSlave", Flag),
+            own("ngMaster", Flag),
+            own("NrOfNG_MonitoredNodes", Number(0xFFFF)),
+            own("bootUpSlave", Any),
+            own("layerSettingServiceSlave", Any),
+        ],
+    ),
+    (
+        "CANopenMasterFeatures",
+        &[
+            own("bootUpMaster", Any),
+            own("flyingMaster", Flag),
+            own("SDOManager", Flag),
+            own("configurationManager", Flag),
+            own("layerSettingServiceMaster", Flag),
+        ],
+    ),
+    ("CANopenObject", OBJECT),
+    (
+        "CANopenObjectList",
+        &[
+            own("mandatoryObjects", Any),
+            own("optionalObjects", Any),
+            own("manufacturerObjects", Any),
+        ],
+    ),
+    ("CANopenSubObject", SUB_OBJECT),
+    (
+        "LED",
+        &[
+            required("LEDcolors", Words(&["monocolor", "bicolor"])),
+            own("LEDtype", Words(&["IO", "device", "communication"])),
+        ],
+    ),
+    (
+        "LEDstate",
+        &[
+            required("uniqueID", Any),
+            required("state", Words(&["on", "off", "flashing"])),
+            required("LEDcolor", Words(&["green", "amber", "red"])),
+            own("flashingPeriod", Number(u32::MAX)),
+            own("impulsWidth", Number(0xFF)),
+            own("numberOfImpulses", Number(0xFF)),
+        ],
+    ),
+    ("LEDstateRef", &[required("stateIDRef", Reference)]),
+    ("ProfileBody", BODY),
+    ("baudRate", &[own("defaultValue", Any)]),
+    ("dataTypeIDRef", UNIQUE),
+    ("description", TEXT),
+    (
+        "deviceCommissioning",
+        &[
+            own("NodeID", Any),
+            own("nodeName", Any),
+            own("actualBaudRate", Any),
+            own("networkNumber", Any),
+            own("networkName", Any),
+            own("CANopenManager", Any),
+        ],
+    ),
+    ("dummy", &[required("entry", Any)]),
+    (
+        "dynamicChannel",
+        &[
+            required("dataType", Any),
+            required(
+                "accessType",
+                Words(&["readOnly", "writeOnly", "readWriteOutput"]),
+            ),
+            required("startIndex", Hex),
+            required("endIndex", Hex),
+            required("maxNumber", Number(u32::MAX)),
+            required("addressOffset", Hex),
+            own("bitAlignment", Number(0xFF)),
+        ],
+    ),
+    ("label", TEXT),
+    ("parameter", PARAMETER),
+    (
+        "parameterGroup",
+        &[required("uniqueID", Any), own("kindOfAccess", Any)],
+    ),
+    ("parameterRef", &[required("uniqueIDRef", Reference)]),
+    ("parameterTemplate", PARAMETER),
+    ("supportedBaudRate", &[required("value", Any)]),
+    ("variableRef", &[]),
+];
+
+/// Names of further elements, whose attributes are not checked.
+const OTHERS: &[&str] = &[
+    "AdditionalInformation",
+    "ApplicationLayers",
+    "ApplicationProcess",
+    "BITSTRING",
+    "BOOL",
+    "BYTE",
+    "CANopenObjects",
+    "CHAR",
+    "DINT",
+    "DWORD",
+    "DeviceFunction",
+    "DeviceIdentity",
+    "DeviceManager",
+    "ExternalProfileHandle",
+    "IASInterface",
+    "IASInterfaceType",
+    "INT",
+    "ISO15745Edition",
+    "ISO15745Part",
+    "ISO15745Profile",
+    "ISO15745ProfileContainer",
+    "ISO15745Reference",
+    "LEDList",
+    "LINT",
+    "LREAL",
+    "LWORD",
+    "NetworkManagement",
+    "PhysicalLayer",
+    "ProfileClassID",
+    "ProfileDate",
+    "ProfileHeader",
+    "ProfileIdentification",
+    "ProfileName",
+    "ProfileRevision",
+    "ProfileSource",
+    "ProfileTechnology",
+    "REAL",
+    "SINT",
+    "STRING",
+    "TransportLayers",
+    "UDINT",
+    "UINT",
+    "ULINT",
+    "USINT",
+    "WORD",
+    "WSTRING",
+    "actualValue",
+    "allowedValues",
+    "allowedValuesTemplate",
+    "array",
+    "buildDate",
+    "buildNumber",
+    "capabilities",
+    "category",
+    "characteristic",
+    "characteristicContent",
+    "characteristicName",
+    "characteristicsList",
+    "combinedState",
+    "compliantWith",
+    "conditionalSupport",
+    "configVars",
+    "connectedModule",
+    "connectedModuleList",
+    "connection",
+    "count",
+    "dataTypeList",
+    "defaultValue",
+    "denotation",
+    "derived",
+    "descriptionRef",
+    "deviceClass",
+    "deviceFamily",
+    "dictionary",
+    "dictionaryList",
+    "dummyUsage",
+    "dynamicChannels",
+    "enum",
+    "enumValue",
+    "file",
+    "functionInstance",
+    "functionInstanceList",
+    "functionType",
+    "functionTypeList",
+    "identity",
+    "indicatorList",
+    "inputVars",
+    "instanceIDRef",
+    "instanceList",
+    "instanceName",
+    "interface",
+    "interfaceList",
+    "labelRef",
+    "maxValue",
+    "memberRef",
+    "minValue",
+    "moduleInterface",
+    "moduleInterfaceList",
+    "moduleManagement",
+    "moduleType",
+    "orderNumber",
+    "outputVars",
+    "parameterGroupList",
+    "parameterList",
+    "picture",
+    "picturesList",
+    "productFamily",
+    "productID",
+    "productName",
+    "productText",
+    "property",
+    "range",
+    "revisionNumber",
+    "serialNumber",
+    "specificationRevision",
+    "standardComplianceList",
+    "struct",
+    "subrange",
+    "substituteValue",
+    "templateList",
+    "unit",
+    "unitURI",
+    "value",
+    "varDeclaration",
+    "vendorID",
+    "vendorName",
+    "vendorText",
+    "vendorTextDescription",
+    "version",
+    "versionInfo",
+];
+
+/// The attributes of an element; none of one that is not in the table.
+pub fn attributes(element: &str) -> &'static [Attribute] {
+    let mut all = ELEMENTS.iter();
+    let found = all.find(|(name, _)| *name == element);
+    found.map_or(&[], |(_, attributes)| *attributes)
+}
+
+/// Returns whether an element of the table has an attribute of this name.
+pub(super) fn is_attribute(name: &str) -> bool {
+    let mut all = ELEMENTS.iter().flat_map(|(_, attributes)| *attributes);
+    all.any(|own| own.name == name)
+}
+
+/// Returns whether an attribute of this name may have this word.
+pub(super) fn has_word(name: &str, word: &str) -> bool {
+    let mut all = ELEMENTS.iter().flat_map(|(_, attributes)| *attributes);
+    all.any(|own| own.name == name && matches!(own.value, Words(words) if words.contains(&word)))
+}
+
+/// Reports elements and attributes that are misspelled or missing, values that the schema does not allow, and uniqueIDs
+/// that two elements have or no element has.
+pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
+    let mut ids = BTreeMap::new();
+    for node in root.descendants().filter(Node::is_element) {
+        if let Some(id) = node.attribute("uniqueID") {
+            match ids.get(id) {
+                None => drop(ids.insert(id, node)),
+                Some(first) => {
+                    let first = reader.attribute(*first, "uniqueID");
+                    if let Some((given, first)) = reader.attribute(node, "uniqueID").zip(first) {
+                        reader.log.push(e0124_id_twice(&given, first.span));
+                    }
+                }
+            }
+        }
+    }
+    for node in root.descendants().filter(Node::is_element) {
+        let name = node.tag_name().name();
+        let is_known = ELEMENTS.iter().any(|(known, _)| *known == name) || OTHERS.contains(&name);
+        if !is_known {
+            let known = ELEMENTS.iter().map(|(known, _)| *known);
+            if let Some(meant) = near(name, known.chain(OTHERS.iter().copied())) {
+                let at = reader.tag_name(node);
+                reader.log.push(w0318_element_misspelled(at, name, meant));
+            }
+        }
+        let attributes = attributes(name);
+        if attributes.is_empty() {
+            continue;
+        }
+        for given in node.attributes() {
+            let name = given.name();
+            let is_known = |own: &Attribute| own.name.eq_ignore_ascii_case(name);
+            if !attributes.iter().any(is_known)
+                && let Some(meant) = near(name, attributes.iter().map(|own| own.name))
+            {
+                let at = reader.name(&given);
+                reader.log.push(w0318_attribute_misspelled(at, name, meant));
+            }
+        }
+        for own in attributes {
+            match reader.attribute(node, own.name) {
+                None if own.required => {
+                    let at = reader.tag_name(node);
+                    reader.log.push(w0123_attribute_missing(at, name, own.name));
+                }
+                Some(given) if given.is_empty() => {}
+                Some(given)
+                    if matches!(own.value, Reference) && !ids.contains_key(given.as_str()) =>
+                {
+                    reader.log.push(e0124_id_missing(&given));
+                }
+                Some(given) if !fits(own.value, &given) => {
+                    let finding = w0123_attribute_not_valid(&given, own.name, form(own.value));
+                    let words = match own.value {
+                        Words(words) => words,
+                        _ => &[],
+                    };
+                    let meant = near(&given, words.iter().copied());
+                    let meant = meant.map(|meant| Fix::unsafe_fix().replace(given.span, meant));
+                    reader
+                        .log
+                        .push(finding.fix(meant.unwrap_or(Fix::unsafe_fix())));
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Returns whether the schema allows this text.
+pub(super) fn fits(value: Value, text: &str) -> bool {
+    let digits =
+        |text: &str, length| text.len() == length && text.bytes().all(|byte| byte.is_ascii_digit());
+    match value {
+        Any | Reference => true,
+        Profile => text.contains("CANopen"),
+        Words(words) => words.contains(&text),
+        Flag => matches!(text, "true" | "false" | "0" | "1"),
+        Number(most) => text.parse::<u32>().is_ok_and(|number| number <= most),
+        Hex => {
+            let is_hex = text.bytes().all(|byte| byte.is_ascii_hexdigit());
+            !text.is_empty() && text.len().is_multiple_of(2) && is_hex
+        }
+        Date => {
+            let text = text
+                .get(..10)
+                .filter(|_| zone(text, 10))
+                .unwrap_or_default();
+            let mut parts = text.split('-');
+            let parts = [parts.next(), parts.next(), parts.next()];
+            let [Some(year), Some(month), Some(day)] = parts else {
+                return false;
+            };
+            digits(year, 4)
+                && (digits(month, 2) && ("01"..="12").contains(&month))
+                && (digits(day, 2) && ("01"..="31").contains(&day))
+        }
+        Time => {
+            let second = text.get(..8).unwrap_or_default();
+            let mut parts = second.split(':');
+            let parts = [parts.next(), parts.next(), parts.next()];
+            let [Some(hour), Some(minute), Some(second)] = parts else {
+                return false;
+            };
+            digits(hour, 2)
+                && hour <= "24"
+                && [minute, second]
+                    .iter()
+                    .all(|part| digits(part, 2) && *part < "60")
+        }
+    }
+}
+
+/// Returns whether a text ends at this byte, or has a time zone there.
+fn zone(text: &str, at: usize) -> bool {
+    let rest = text.get(at..).unwrap_or("?");
+    rest.is_empty() || rest == "Z" || rest.starts_with(['+', '-'])
+}
+
+/// A value of this form in words, for a help.
+fn form(value: Value) -> String {
+    match value {
+        Any | Reference => "a text".into(),
+        Profile => {
+            "`ProfileBody_Device_CANopen` or `ProfileBody_CommunicationNetwork_CANopen`".into()
+        }
+        Words(words) => {
+            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+            let (last, before) = words.split_at(words.len().saturating_sub(1));
+            format!("{} or {}", before.join(", "), last.concat())
+        }
+        Flag => "`true` or `false`".into(),
+        Number(most) => format!("a number from 0 to {most}"),
+        Hex => "hexadecimal digits, two for each byte, without `0x`".into(),
+        Date => "year, month and day, such as `2026-11-27`".into(),
+        Time => "hour, minute and second, such as `09:30:00`".into(),
+    }
+}
