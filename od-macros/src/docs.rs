@@ -4,9 +4,8 @@ use od_eds::patch::Action;
 use od_eds::{EntryDescription, ObjectDescription, Span, Value};
 use od_model::{Access, Address, DataType, Group, Kind};
 
-use crate::input::Statement;
-
 use crate::files::Files;
+use crate::input::Statement;
 
 /// The documentation of a variant: its differences from the base.
 pub(crate) fn variant(family: &str, statements: &[Statement]) -> String {
@@ -31,16 +30,16 @@ pub(crate) fn variant(family: &str, statements: &[Statement]) -> String {
     text
 }
 
-/// The documentation of a value: of a VAR, or of the sub-object `member`.
+/// The documentation of a value: of a VAR, or of a sub-object.
 pub(crate) fn entry(
     address: Address,
-    member: bool,
+    is_sub_object: bool,
     entry: &EntryDescription,
     data_type: DataType,
     files: Option<&Files>,
 ) -> String {
     let name = escape(&entry.name);
-    let mut text = if member {
+    let mut text = if is_sub_object {
         format!("**{address}** {name}")
     } else {
         format!("**{:04X}h** {name}", address.index)

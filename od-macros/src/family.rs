@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_eds::patch::{self, Action, Change, Edit};
+use od_eds::patch::{Action, Change, Edit, apply};
 use od_eds::{Description, Finding, Key, Spanned, Tables};
 use od_model::{Address, ObjectCode, Slot};
 use proc_macro2::Span;
@@ -37,7 +37,6 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         None => input.name.span(),
     };
     let files = source.files.as_ref();
-    let told = Findings { files };
 
     let mut base = source.description.clone();
     let before = if base.objects.is_empty() || input.statements.is_empty() {
@@ -49,7 +48,15 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         all: before,
         ..Checked::default()
     };
-    let mut made = told.patch(&mut base, &before, &input.statements, home, "", report);
+    let mut made = patch(
+        &mut base,
+        &before,
+        &input.statements,
+        home,
+        "",
+        files,
+        report,
+    );
     let left = source.findings.iter();
     let left = left.filter(|finding| !fixed(finding, &base, &input.statements));
     let old = std::mem::take(&mut made.old);
@@ -70,12 +77,13 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
             let mut description = base.clone();
             let context = format!("variant `{}`: ", variant.name);
             let of_module = report.add_doubts(&variant.doubts);
-            told.patch(
+            patch(
                 &mut description,
                 &made,
                 &variant.statements,
                 variant.name.span(),
                 &context,
+                files,
                 report,
             );
             report.replace_doubts(of_module);
@@ -177,72 +185,64 @@ struct Checked {
     broken: BTreeSet<Address>,
 }
 
-/// Receiver of findings.
-struct Findings<'a> {
-    files: Option<&'a Files>,
-}
-
-impl Findings<'_> {
-    /// Applies statements to a description with the findings `before`, and checks the result.
-    ///
-    /// Errors of the statements and new findings are reported at the edit that caused them, or at `home`, but no
-    /// finding that may be a consequence of a wrong statement.
-    fn patch(
-        &self,
-        description: &mut Description,
-        before: &Checked,
-        statements: &[Statement],
-        home: Span,
-        context: &str,
-        report: &mut Report,
-    ) -> Checked {
-        let first = report.numbers();
-        let edits = edits(statements, report);
-        let mut faults = patch::apply(description, &edits);
-        faults.extend(handles::check_renames(statements, description, report));
-        faults.retain(|fault| {
-            let Some(address) = fault.object else {
-                return true;
-            };
-            let is_missing = matches!(fault.code(), "E0701" | "E0703" | "E0704");
-            let is_known = !report.has_lost() && report.is_read(address.index);
-            !report.half_read_ones().contains(&address) && (is_known || !is_missing)
-        });
-        let patch = findings::Patch {
-            edits: &edits,
-            tokens: first..report.numbers(),
-            home,
-            context,
-            files: self.files,
+/// Applies statements to a description with the findings `before`, and checks the result.
+///
+/// Errors of the statements and new findings are reported at the edit that caused them, or at `home`, but no
+/// finding that may be a consequence of a wrong statement.
+fn patch(
+    description: &mut Description,
+    before: &Checked,
+    statements: &[Statement],
+    home: Span,
+    context: &str,
+    files: Option<&Files>,
+    report: &mut Report,
+) -> Checked {
+    let first = report.numbers();
+    let edits = edits(statements, report);
+    let mut faults = apply(description, &edits);
+    faults.extend(handles::check_renames(statements, description, report));
+    faults.retain(|fault| {
+        let Some(address) = fault.object else {
+            return true;
         };
-        patch.tell(&faults, description, report);
-        let all = od_eds::check::check(description);
-        let mut broken = before.broken.clone();
-        broken.extend(faults.iter().filter_map(|fault| fault.object));
-        let doubtful = &broken | report.half_read_ones();
-        let is_sure = |finding: &&Finding| {
-            !finding.may_follow(&doubtful) && (finding.rule.is_of_one_value() || !report.has_lost())
-        };
-        let sure = all.iter().filter(is_sure).cloned();
-        if edits.is_empty() {
-            let old = sure.collect();
-            return Checked { old, all, broken };
-        }
-        let mut known: BTreeMap<_, Vec<&Finding>> = BTreeMap::new();
-        for finding in &before.all {
-            let key = (finding.code(), finding.object);
-            known.entry(key).or_default().push(finding);
-        }
-        let is_old = |finding: &Finding| {
-            let alike = known.get(&(finding.code(), finding.object));
-            alike.is_some_and(|alike| alike.contains(&finding))
-        };
-        let (old, new): (Vec<Finding>, Vec<Finding>) = sure.partition(is_old);
-        patch.blame(&new, description, report);
-        Checked { old, all, broken }
+        let is_missing = matches!(fault.code(), "E0701" | "E0703" | "E0704");
+        let is_known = !report.has_lost() && report.is_read(address.index);
+        !report.half_read_ones().contains(&address) && (is_known || !is_missing)
+    });
+    let of_edits = findings::Patch {
+        edits: &edits,
+        tokens: first..report.numbers(),
+        home,
+        context,
+        files,
+    };
+    of_edits.tell(&faults, description, report);
+    let all = od_eds::check::check(description);
+    let mut broken = before.broken.clone();
+    broken.extend(faults.iter().filter_map(|fault| fault.object));
+    let doubtful = &broken | report.half_read_ones();
+    let is_sure = |finding: &&Finding| {
+        !finding.may_follow(&doubtful) && (finding.rule.is_of_one_value() || !report.has_lost())
+    };
+    let sure = all.iter().filter(is_sure).cloned();
+    if edits.is_empty() {
+        let old = sure.collect();
+        return Checked { old, all, broken };
     }
+    let mut known: BTreeMap<_, Vec<&Finding>> = BTreeMap::new();
+    for finding in &before.all {
+        let key = (finding.code(), finding.object);
+        known.entry(key).or_default().push(finding);
+    }
+    let is_old = |finding: &Finding| {
+        let alike = known.get(&(finding.code(), finding.object));
+        alike.is_some_and(|alike| alike.contains(&finding))
+    };
+    let (old, new): (Vec<Finding>, Vec<Finding>) = sure.partition(is_old);
+    of_edits.blame(&new, description, report);
+    Checked { old, all, broken }
 }
-
 /// Assigns a place to every stored value of the family; a string has room for its longest default.
 ///
 /// A value has the same place in the store of every variant that has it with the same type. A handle of the family

@@ -286,7 +286,7 @@ fn miswritten(name: &str, target: Target, modules: bool) -> Option<String> {
     (right != name).then(|| format!("{target} is {what}\nhelp: `rename {target} = {right};`"))
 }
 
-/// Reports each `rename` of an object that does not exist.
+/// Returns a finding for each `rename` of a missing object, and reports an object that is renamed twice.
 pub(crate) fn check_renames(
     statements: &[Statement],
     description: &Description,
@@ -387,7 +387,7 @@ impl Handle {
         &self.label
     }
 
-    /// Returns whether it has a constant of its own, in addition to the series of its object.
+    /// Returns whether the call gives its name; then it has a constant of its own even if it belongs to a series.
     pub(crate) fn is_renamed(&self) -> bool {
         self.is_renamed
     }

@@ -301,7 +301,9 @@ impl Input {
                     doubts,
                 });
             }
-            _ => self.statements.push(statement(body, IN_MODULE, report)?),
+            _ => self
+                .statements
+                .push(statement(body, Scope::Module, report)?),
         }
         Ok(())
     }
@@ -344,20 +346,60 @@ fn statements(body: ParseStream, report: &mut Report) -> syn::Result<Vec<Stateme
     while !body.is_empty() {
         refuse(&body.call(Attribute::parse_outer)?, report);
         let start = body.fork();
-        let result = statement(body, IN_VARIANT, report);
+        let result = statement(body, Scope::Variant, report);
         statements.extend(recover(body, &start, result, report));
     }
     Ok(statements)
 }
 
-const STATEMENTS: [&str; 12] = [
-    "add", "modify", "remove", "rename", "variant", "eds", "profile", "without", "behaves",
-    "errors", "crate", "warnings",
-];
-const IN_MODULE: &str = "`eds`, `profile`, `without`, `behaves`, `errors`, `crate`, `warnings`, `add`, `modify`, `remove`, `rename` or `variant`";
-const IN_VARIANT: &str = "`add`, `modify`, `remove` or `rename`";
+/// Token after the word of an item.
+#[derive(Clone, Copy, PartialEq)]
+enum Follows {
+    /// An object: the item is a statement, of the module or of a variant.
+    Object,
+    Equals,
+    Name,
+}
 
-fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Result<Statement> {
+/// The words with which an item of the module begins.
+const ITEMS: [(&str, Follows); 12] = [
+    ("eds", Follows::Equals),
+    ("profile", Follows::Equals),
+    ("without", Follows::Name),
+    ("behaves", Follows::Equals),
+    ("errors", Follows::Equals),
+    ("crate", Follows::Equals),
+    ("warnings", Follows::Equals),
+    ("add", Follows::Object),
+    ("modify", Follows::Object),
+    ("remove", Follows::Object),
+    ("rename", Follows::Object),
+    ("variant", Follows::Name),
+];
+
+/// Part of a call that has statements.
+#[derive(Clone, Copy, PartialEq)]
+enum Scope {
+    Module,
+    Variant,
+}
+
+impl Scope {
+    /// The words that can begin an item in this part, as a list for a message.
+    fn words(self) -> String {
+        let items = ITEMS.iter();
+        let allowed =
+            items.filter(|(_, follows)| self == Self::Module || *follows == Follows::Object);
+        let words: Vec<String> = allowed.map(|(word, _)| format!("`{word}`")).collect();
+        match words.split_last() {
+            Some((last, others)) => format!("{} or {last}", others.join(", ")),
+            None => String::new(),
+        }
+    }
+}
+
+fn statement(body: ParseStream, scope: Scope, report: &mut Report) -> syn::Result<Statement> {
+    let allowed = scope.words();
     let expected = || format!("expected {allowed}");
     let word = Ident::parse_any(body).map_err(|e| syn::Error::new(e.span(), expected()))?;
     let action = match word.to_string().as_str() {
@@ -383,7 +425,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             semicolon(body, name.span(), report)?;
             return Ok(Statement::Rename { target, name });
         }
-        "eds" | "profile" | "without" | "behaves" | "errors" | "crate" | "variant" | "warnings" => {
+        other if ITEMS.iter().any(|(item, _)| *item == other) => {
             return Err(syn::Error::new(
                 word.span(),
                 format!(
@@ -392,7 +434,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             ));
         }
         other => {
-            let message = match words::near(other, STATEMENTS.into_iter()) {
+            let message = match words::near(other, ITEMS.iter().map(|(item, _)| *item)) {
                 Some(meant) => {
                     format!("`{other}` is not a statement\nhelp: did you mean `{meant}`?")
                 }
@@ -489,10 +531,11 @@ fn doubt(start: ParseStream, report: &mut Report) {
     let _ = start.call(Attribute::parse_outer);
     let word = Ident::parse_any(start);
     let word = word.map_or(String::new(), |word| word.to_string());
-    let of_no_object = [
-        "profile", "warnings", "without", "behaves", "errors", "crate", "variant",
-    ];
-    if of_no_object.contains(&&*word) {
+    // An `eds` that cannot be read hides the objects of its file.
+    let is_of_no_object = |(item, follows): &(&str, Follows)| {
+        *item == word && *item != "eds" && *follows != Follows::Object
+    };
+    if ITEMS.iter().any(is_of_no_object) {
         return;
     }
     let literal = start.parse::<LitInt>().ok();
@@ -509,11 +552,12 @@ fn starts_statement(body: ParseStream) -> bool {
     let Ok(word) = Ident::parse_any(&ahead) else {
         return false;
     };
-    match word.to_string().as_str() {
-        "add" | "modify" | "remove" | "rename" => ahead.peek(LitInt),
-        "eds" | "profile" | "behaves" | "errors" | "warnings" => ahead.peek(Token![=]),
-        "variant" | "without" => ahead.peek(syn::Ident),
-        _ => false,
+    let item = ITEMS.iter().find(|(item, _)| word == item);
+    match item.map(|(_, follows)| follows) {
+        Some(Follows::Object) => ahead.peek(LitInt),
+        Some(Follows::Equals) => ahead.peek(Token![=]),
+        Some(Follows::Name) => ahead.peek(syn::Ident),
+        None => false,
     }
 }
 

@@ -166,7 +166,7 @@ mod tests {
 
     /// The complete output for a small module, so that a change of it is seen.
     #[test]
-    fn what_is_made() {
+    fn a_small_module_has_these_items() {
         let made = expand(quote! {
             pub mod device {
                 add 0x1000 { name = "Device type"; type = u32; default = 0x196 }
@@ -299,11 +299,15 @@ mod tests {
 
     /// Errors of a call with these statements.
     fn errors(statements: &str) -> Vec<String> {
-        let text = format!(
+        errors_of(&format!(
             "mod device {{ profile = cia401; {statements} \
              rename 0x2000 = TURN; rename 0x1018sub1 = MAKER; \
              variant small {{ remove 0x1A00sub2; modify 0x1800sub2 {{ default = 255 }} }} }}"
-        );
+        ))
+    }
+
+    /// Errors of a call.
+    fn errors_of(text: &str) -> Vec<String> {
         let made = expand(text.parse().unwrap()).to_string();
         let (_, errors) =
             made.split_at(made.find(":: core :: compile_error").unwrap_or(made.len()));
@@ -351,9 +355,31 @@ mod tests {
         }
     }
 
+    /// After a missing semicolon each kind of item is read.
+    #[test]
+    fn a_missing_semicolon_hides_no_item() {
+        for item in [
+            "profile = cia401;",
+            "without lss;",
+            "behaves = PROFILE;",
+            "errors = 4;",
+            "crate = ::other::odkit;",
+            "warnings = off;",
+            "add 0x3000 { name = \"Speed\"; type = u16 }",
+            "modify 0x1000 { default = 0x191 }",
+            "variant small { }",
+        ] {
+            let errors = errors_of(&format!(
+                "mod device {{ {WIDE} rename 0x1000 = KIND {item} }}"
+            ));
+            assert_eq!(errors.len(), 1, "{item}");
+            assert!(errors[0].contains("expected `;` behind this"), "{item}");
+        }
+    }
+
     /// Any input gives errors, never a panic.
     #[test]
-    fn nonsense_is_told() {
+    fn any_input_gives_an_error() {
         for text in [
             "",
             "mod",

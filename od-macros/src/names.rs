@@ -3,14 +3,14 @@
 //! They are part of the API of the module that the macro makes, so the rules are
 //! few and do not depend on anything but the names:
 //!
-//! 1. Letters and digits stay, everything else separates words; umlauts and the
-//!    like become ASCII. `camelCase` separates words too.
+//! 1. Letters and digits stay, and all other characters separate words; a letter with
+//!    an accent becomes ASCII. A capital letter in `camelCase` begins a word, too.
 //! 2. VARs and members are `SHOUTY_SNAKE`, RECORDs and ARRAYs `snake_case` modules.
-//! 3. A leading digit and an empty name get `_` and `OBJECT` in front, a keyword
-//!    gets `_` behind.
-//! 4. Where names repeat, *each* of them gets its index or sub-index behind:
-//!    `RESERVED_2110`, `RESERVED_2111`; none keeps the bare name, so that it
-//!    cannot change its meaning when another comes along.
+//! 3. A name that begins with a digit gets a leading `_`, a keyword a trailing `_`;
+//!    an empty name becomes `OBJECT_2110` or `SUB_05`.
+//! 4. Where names repeat, *each* of them ends with its index or sub-index:
+//!    `RESERVED_2110`, `RESERVED_2111`; none keeps the bare name, which would
+//!    change its meaning if the EDS got another object of this name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,9 +34,9 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Does a new word begin here, inside `NodeId`, `TxPdo`, `PDOMapping`?
+/// Returns whether a new word begins here, as in `NodeId`, `TxPdo` and `PDOMapping`.
 ///
-/// Not in `kHz` and `PDOs`: a hump has two letters at least.
+/// It does not in `kHz` and `PDOs`: a word has at least two letters.
 fn humps(letters: &[char], at: usize) -> bool {
     let is = |at: Option<usize>, test: fn(&char) -> bool| {
         at.and_then(|at| letters.get(at)).is_some_and(test)
@@ -102,12 +102,12 @@ pub(crate) fn module(name: &str, index: u16) -> String {
     if is_keyword(&name) { name + "_" } else { name }
 }
 
-/// Is it one of Rust's keywords?
+/// Returns whether it is a keyword of Rust.
 pub(crate) fn is_keyword(word: &str) -> bool {
     syn::parse_str::<syn::Ident>(word).is_err()
 }
 
-/// Names that each have a key; repeated ones get their suffix, `taken` ones too.
+/// Returns the names by their keys; a name that is repeated or `taken` gets the suffix of its key.
 pub(crate) fn distinct<K: Ord + Copy>(
     wanted: &[(K, String)],
     taken: &BTreeSet<String>,

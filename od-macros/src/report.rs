@@ -21,7 +21,7 @@ pub(crate) struct Report {
 pub(crate) struct Doubts {
     /// Addresses of statements that could not be read completely.
     half_read: BTreeSet<Address>,
-    /// Whether the file could not be read, or a statement of which nobody knows the object.
+    /// The file, or a statement whose object is not known, could not be read.
     has_lost: bool,
 }
 
@@ -94,12 +94,12 @@ impl Report {
         self.doubts.half_read.insert(address);
     }
 
-    /// Records that the file could not be read, or a statement of which nobody knows the object.
+    /// Records that the file, or a statement whose object is not known, could not be read.
     pub(crate) fn lose(&mut self) {
         self.doubts.has_lost = true;
     }
 
-    /// Returns whether the file could not be read, or a statement of which nobody knows the object.
+    /// Returns whether the file, or a statement whose object is not known, could not be read.
     pub(crate) const fn has_lost(&self) -> bool {
         self.doubts.has_lost
     }
@@ -109,7 +109,7 @@ impl Report {
         &self.doubts.half_read
     }
 
-    /// Begins with the doubts of another part of the call. Returns those of the part before.
+    /// Replaces the doubts by those of another part of the call. Returns the previous ones.
     pub(crate) fn replace_doubts(&mut self, doubts: Doubts) -> Doubts {
         std::mem::replace(&mut self.doubts, doubts)
     }
@@ -138,7 +138,7 @@ impl Report {
         self.errors.len()
     }
 
-    /// A span for the model that leads back to this token.
+    /// Returns a span that stands for these tokens in a description.
     pub(crate) fn number(&mut self, place: impl Into<Place>) -> od_eds::Span {
         let span = od_eds::token(self.numbers());
         self.tokens.push(place.into());
@@ -147,15 +147,16 @@ impl Report {
 
     /// The number that the next token gets.
     pub(crate) fn numbers(&self) -> u32 {
-        // No call has four thousand million tokens.
+        // No call has four billion tokens.
         u32::try_from(self.tokens.len()).unwrap_or(u32::MAX)
     }
 
+    /// The tokens that a finding is about.
     pub(crate) fn token(&self, finding: &Finding) -> Option<Place> {
         self.span(finding.span()?)
     }
 
-    /// The token of a span of the model.
+    /// The tokens for which a span stands.
     pub(crate) fn span(&self, span: od_eds::Span) -> Option<Place> {
         self.tokens.get(token_of(span)? as usize).copied()
     }

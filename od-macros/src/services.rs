@@ -14,28 +14,24 @@ use syn::{LitInt, Path, Token};
 use crate::report::Report;
 use crate::words;
 
-/// Each service: its word, the constant of `Device`, and the objects that need it.
-const SERVICES: [(&str, &str, RangeInclusive<u16>); 15] = [
-    ("lss", "LSS", NONE),
-    ("segmented", "SEGMENTED", NONE),
-    ("block", "BLOCK", NONE),
-    ("rpdos", "RPDOS", 0x1400..=0x17FF),
-    ("changes", "CHANGES", NONE),
-    ("guarding", "GUARDING", 0x100C..=0x100D),
-    ("consumer", "CONSUMER", 0x1016..=0x1016),
-    ("storage", "STORAGE", 0x1010..=0x1011),
-    ("behaviour", "BEHAVIOUR", 0x1029..=0x1029),
-    ("events", "EVENTS", NONE),
-    ("servers", "SERVERS", 0x1201..=0x127F),
-    ("sync_producer", "SYNC_PRODUCER", 0x1005..=0x1005),
-    ("time", "TIME", 0x1012..=0x1012),
-    ("deadlines", "DEADLINES", NONE),
-    ("sync_length", "SYNC_LENGTH", NONE),
+/// Each service: its word, the constant of `Device`, and the objects that need it, if there are any.
+const SERVICES: [(&str, &str, Option<RangeInclusive<u16>>); 15] = [
+    ("lss", "LSS", None),
+    ("segmented", "SEGMENTED", None),
+    ("block", "BLOCK", None),
+    ("rpdos", "RPDOS", Some(0x1400..=0x17FF)),
+    ("changes", "CHANGES", None),
+    ("guarding", "GUARDING", Some(0x100C..=0x100D)),
+    ("consumer", "CONSUMER", Some(0x1016..=0x1016)),
+    ("storage", "STORAGE", Some(0x1010..=0x1011)),
+    ("behaviour", "BEHAVIOUR", Some(0x1029..=0x1029)),
+    ("events", "EVENTS", None),
+    ("servers", "SERVERS", Some(0x1201..=0x127F)),
+    ("sync_producer", "SYNC_PRODUCER", Some(0x1005..=0x1005)),
+    ("time", "TIME", Some(0x1012..=0x1012)),
+    ("deadlines", "DEADLINES", None),
+    ("sync_length", "SYNC_LENGTH", None),
 ];
-
-/// No object.
-#[allow(clippy::reversed_empty_ranges)]
-const NONE: RangeInclusive<u16> = 1..=0;
 
 /// The services that a call names.
 #[derive(Default)]
@@ -125,7 +121,7 @@ impl Services {
         let mut needed = Vec::new();
         for (constant, word) in &self.off {
             let service = SERVICES.iter().find(|(_, own, _)| own == constant);
-            let Some((_, _, range)) = service else {
+            let Some((_, _, Some(range))) = service else {
                 continue;
             };
             // 1005h needs the service only if bit 30 is set.

@@ -18,7 +18,7 @@ pub(crate) struct Source {
     pub(crate) paths: Vec<PathBuf>,
     /// The findings of the reader.
     pub(crate) findings: Vec<od_eds::Finding>,
-    /// Whether the file has no errors.
+    /// The findings that the file allows (`odkit-allow`).
     pub(crate) allows: od_eds::check::Allows,
     /// The description in the file; empty without a file.
     pub(crate) description: Description,

@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_suggested_is_allowed() {
+    fn a_suggested_word_is_allowed() {
         check(&TYPES);
         check(&ACCESS);
         check(&GROUPS);
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_meant() {
+    fn the_most_similar_word_is_suggested() {
         for (word, meant) in [
             ("uint16", Some("u16")),
             ("uint16_t", Some("u16")),

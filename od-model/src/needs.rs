@@ -50,16 +50,12 @@ impl Dictionary<'_> {
     pub const fn longest(&self) -> usize {
         self.shape.longest
     }
-}
 
-impl Dictionary<'_> {
     /// Returns whether an application has to stream one of the values ([`Entry::is_streamed`]).
     pub const fn has_streams(&self) -> bool {
         self.shape.has_streams
     }
-}
 
-impl Dictionary<'_> {
     /// The position of the value whose address has this [key](crate::Address::key).
     #[doc(hidden)]
     pub const fn position(&self, key: u32) -> Option<usize> {

@@ -122,8 +122,7 @@ const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
     }
 }
 
-/// Length of a value in bytes, by the first word of its row. On a microcontroller it is not
-/// inlined.
+/// Length of a value in bytes, by the first word of its row.
 const fn size(head: u32) -> usize {
     (BITS[(head >> 3 & 31) as usize] as usize).div_ceil(8)
 }
@@ -140,6 +139,17 @@ static BITS: [u8; 32] = {
         i += 1;
     }
     bits
+};
+
+/// Kind of each data type, with an element for every number that a row can contain.
+static KINDS: [Kind; 32] = {
+    let mut kinds = [Kind::Unsigned; 32];
+    let mut i = 0;
+    while i < DataType::ALL.len() {
+        kinds[i] = DataType::ALL[i].kind();
+        i += 1;
+    }
+    kinds
 };
 
 impl Row {
@@ -247,6 +257,11 @@ impl Row {
         } else {
             DataType::Unsigned8
         }
+    }
+
+    /// Meaning of the bytes, as [`DataType::kind`](crate::DataType::kind) returns it.
+    pub const fn kind(self) -> Kind {
+        KINDS[(self.0[0] >> 3 & 31) as usize]
     }
 
     /// Length of a value whose type gives it, in bits; 0 for a string or DOMAIN.
@@ -380,28 +395,7 @@ impl Row {
             slot: self.slot(pool),
         }
     }
-}
 
-/// Kind of each data type, with an element for every number that a row can contain.
-static KINDS: [Kind; 32] = {
-    let mut kinds = [Kind::Unsigned; 32];
-    let mut i = 0;
-    while i < DataType::ALL.len() {
-        kinds[i] = DataType::ALL[i].kind();
-        i += 1;
-    }
-    kinds
-};
-
-impl Row {
-    /// Meaning of the bytes, as [`DataType::kind`](crate::DataType::kind) returns it.
-    pub const fn kind(self) -> Kind {
-        KINDS[(self.0[0] >> 3 & 31) as usize]
-    }
-}
-
-/// Limits of a value: their kinds and words are in the pool.
-impl Row {
     /// Returns whether the value has limits besides those of its type.
     pub const fn has_limits(self) -> bool {
         self.0[3] >> 14 != 0
@@ -421,6 +415,39 @@ impl Row {
         match kind & 7 {
             0 | RANGE => None,
             kind => Some(number(kind, bits(pool, at, kind), node_id)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row has its own masks of access types, which need no `Access`.
+    #[test]
+    fn a_row_and_its_entry_allow_the_same() {
+        for access in Access::ALL {
+            for mappable in [false, true] {
+                let entry = Entry {
+                    address: Address::new(0x2000, 0),
+                    data_type: DataType::Unsigned16,
+                    access,
+                    mappable,
+                    group: Group::None,
+                    name: Range::new(0, 0),
+                    default: Literal::None,
+                    low: Literal::None,
+                    high: Literal::None,
+                    slot: Slot { offset: 0, len: 2 },
+                };
+                let row = Row::new(&entry, ObjectCode::Var, 0, 0);
+                assert_eq!(row.entry(&[]), entry);
+                assert_eq!(row.readable(), access.readable(), "{access}");
+                assert_eq!(row.writable(), access.writable(), "{access}");
+                assert_eq!(row.is_const(), access == Access::Const);
+                assert_eq!(row.maps_to_tpdo(), entry.maps_to_tpdo(), "{access}");
+                assert_eq!(row.maps_to_rpdo(), entry.maps_to_rpdo(), "{access}");
+            }
         }
     }
 }

@@ -88,7 +88,7 @@ impl fmt::Display for Error {
                 "the SDO server announces a length of {announced} and sends {received}"
             ),
             Self::Crc => f.write_str("the checksum of the block transfer does not match"),
-            Self::NoProgress => f.write_str("the SDO server brings the transfer no further"),
+            Self::NoProgress => f.write_str("the SDO server does not continue the transfer"),
             Self::Cancelled => f.write_str("the transfer was cancelled"),
             Self::Refused {
                 error: 0xFF,
@@ -139,15 +139,15 @@ pub enum Expected {
 impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
-            Self::Upload => "an upload answer",
+            Self::Upload => "an upload response",
             Self::UploadSegment => "an upload segment",
-            Self::Download => "a download answer",
-            Self::DownloadSegment => "a download segment answer",
-            Self::BlockUpload => "a block upload answer",
+            Self::Download => "a download response",
+            Self::DownloadSegment => "a download segment response",
+            Self::BlockUpload => "a block upload response",
             Self::BlockSegment => "a block segment",
             Self::BlockUploadEnd => "the end of a block upload",
-            Self::BlockDownload => "a block download answer",
-            Self::BlockConfirmation => "a block answer",
+            Self::BlockDownload => "a block download response",
+            Self::BlockConfirmation => "a block response",
             Self::BlockDownloadEnd => "the end of a block download",
         })
     }

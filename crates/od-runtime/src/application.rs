@@ -354,6 +354,7 @@ pub trait Application {
         let _ = (cx, address);
         Ok(())
     }
+
     /// Checks a `value` that a master wants to write; it has the length of the object and is
     /// within its limits. The store still holds the old value.
     ///

@@ -54,8 +54,7 @@ impl Deadline {
     }
 }
 
-// These functions take numbers, which fit into registers; a `Deadline` does not. On a
-// microcontroller they are not inlined.
+// These functions take numbers, which fit into registers; a `Deadline` does not.
 
 /// [`Deadline::is_due`].
 const fn is_due(at: u64, now: u64) -> bool {

@@ -25,8 +25,8 @@ pub struct LengthRule {
 /// Options of the SDO server (CiA 301, chapter 7.2.4).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SdoProfile {
-    /// DLC of the shortest request that the server answers, 4 to 8; a shorter one is ignored. Data
-    /// bytes that are missing do not count as given.
+    /// DLC of the shortest request that the server answers, 4 to 8; a shorter one is ignored. Missing
+    /// data bytes are not a part of the value.
     pub min_dlc: u8,
     /// Response to downloads of the wrong length.
     pub length: LengthRule,
@@ -55,7 +55,7 @@ pub struct PdoProfile {
     /// Restart of the event timer of types 254 and 255.
     pub event_timer: EventTimer,
     /// A COB-ID can be changed while the PDO is valid. In CiA 301 bit 31 has to be set first
-    /// (chapter 7.5.2.36).
+    /// (chapters 7.5.2.35 and 7.5.2.37).
     pub direct_cob_id: bool,
     /// Index of the first repeat counter (2800h of the bus-cover family), one for each TPDO.
     /// `None`: not supported.
@@ -257,7 +257,7 @@ pub struct Notice {
 pub enum ErrorReset {
     /// With each error that ends; its error register shows the others.
     EachError,
-    /// Time when the last error ends.
+    /// Only when the last error ends.
     LastError,
 }
 

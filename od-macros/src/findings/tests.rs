@@ -21,7 +21,7 @@ fn cases() -> Vec<PathBuf> {
     files.filter(|path| path.exists()).collect()
 }
 
-/// Is it the file that has this key?
+/// Returns whether the finding is about a file in which this key is written.
 fn is_told(finding: &Finding, key: Key) -> bool {
     let mut facts = finding.facts.iter();
     facts.any(|(_, fact)| matches!(fact, Fact::Text(text) if key.is(text)))

@@ -106,7 +106,7 @@ impl Events {
     }
 
     /// Adds an event of the bus.
-    pub(super) fn tell(&mut self, event: Event) {
+    pub(super) fn report(&mut self, event: Event) {
         if self.news < NEWS {
             self.news += 1;
             self.waiting.push_back(event);

@@ -154,6 +154,7 @@ impl Client {
         self.tasks.handle_frame(now, frame, &mut self.events);
         if let Some((node, state)) = watch::parse(frame) {
             if !self.watch.contains(node) {
+                // Boot-up messages and states of all nodes are reported.
                 self.unwatch(node);
             }
             let lane = self.lanes.iter_mut().find(|lane| lane.node() == node);
@@ -161,10 +162,10 @@ impl Client {
                 lane.forget();
             }
             self.watch.handle_frame(now, frame);
-            self.take_news();
+            self.report_news();
         }
         if let Some((node, emcy)) = emcy::parse(frame) {
-            self.events.tell(Event::Emcy(node, emcy));
+            self.events.report(Event::Emcy(node, emcy));
         }
     }
 
@@ -175,7 +176,7 @@ impl Client {
         }
         self.tasks.handle_timeout(now, &mut self.events);
         self.watch.handle_timeout(now);
-        self.take_news();
+        self.report_news();
     }
 
     /// Returns the next frame to send; the time for its response starts at `now`. Nodes take
@@ -236,9 +237,9 @@ impl Client {
         job
     }
 
-    fn take_news(&mut self) {
+    fn report_news(&mut self) {
         while let Some(event) = self.watch.poll_event() {
-            self.events.tell(event.into());
+            self.events.report(event.into());
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use od_wire::lss::{MASTER, Response, SLAVE};
+use od_wire::lss::{MASTER, Request, Response, SLAVE};
 use od_wire::{CanId, Duration, Frame, Instant, NodeId};
 
 use super::fastscan::Fastscan;
@@ -165,9 +165,7 @@ impl Master {
             (Task::InquireNodeId, Response::NodeId { node_id }) => {
                 Ok(Answer::NodeId(NodeId::new(node_id)))
             }
-            (task, Response::Configured { command, error })
-                if command_of(task) == Some(command) =>
-            {
+            (task, Response::Configured { command, error }) if is_command(task, command) => {
                 match error {
                     0 => Ok(Answer::Done),
                     error => Err(Error::Refused {
@@ -236,12 +234,8 @@ impl Master {
     }
 }
 
-/// The command in a slave's confirmation.
-const fn command_of(task: Task) -> Option<u8> {
-    match task {
-        Task::ConfigureNodeId(_) => Some(0x11),
-        Task::ConfigureBitTiming { .. } => Some(0x13),
-        Task::Store => Some(0x17),
-        _ => None,
-    }
+/// Returns whether the request of a task has this command, which a slave repeats in its confirmation.
+fn is_command(task: Task, command: u8) -> bool {
+    let request = task.request(0).map(Request::emit);
+    request.is_some_and(|[own, ..]| own == command)
 }

@@ -9,15 +9,15 @@ use od_wire::sdo::Response;
 fn every_expected_response_has_a_name_of_its_own() {
     use Expected::*;
     let all = [
-        (Upload, "an upload answer"),
+        (Upload, "an upload response"),
         (UploadSegment, "an upload segment"),
-        (Download, "a download answer"),
-        (DownloadSegment, "a download segment answer"),
-        (BlockUpload, "a block upload answer"),
+        (Download, "a download response"),
+        (DownloadSegment, "a download segment response"),
+        (BlockUpload, "a block upload response"),
         (BlockSegment, "a block segment"),
         (BlockUploadEnd, "the end of a block upload"),
-        (BlockDownload, "a block download answer"),
-        (BlockConfirmation, "a block answer"),
+        (BlockDownload, "a block download response"),
+        (BlockConfirmation, "a block response"),
         (BlockDownloadEnd, "the end of a block download"),
     ];
     for (expected, text) in all {
@@ -37,7 +37,7 @@ fn a_response_out_of_turn_is_named_by_its_object_or_its_toggle_bit() {
     };
     assert_eq!(
         shown(Expected::Upload, [0x43, 0x01, 0x10, 2, 0, 0, 0, 0]),
-        "an upload answer was expected, but a response for 1001h:02 came"
+        "an upload response was expected, but a response for 1001h:02 came"
     );
     assert_eq!(
         shown(Expected::UploadSegment, [0x10, 1, 2, 3, 4, 5, 6, 7]),
@@ -45,7 +45,7 @@ fn a_response_out_of_turn_is_named_by_its_object_or_its_toggle_bit() {
     );
     assert_eq!(
         shown(Expected::DownloadSegment, [0x30, 0, 0, 0, 0, 0, 0, 0]),
-        "a download segment answer was expected, but one with the wrong toggle bit came"
+        "a download segment response was expected, but one with the wrong toggle bit came"
     );
 }
 

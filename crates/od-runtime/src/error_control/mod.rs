@@ -30,12 +30,15 @@ pub(crate) fn guards<D: Services>(store: &Store<'_>, profile: &Profile) -> bool 
     }
 }
 
+/// Returns whether the object at this index switches between heartbeat and node guarding.
+pub(crate) fn is_switch(index: u16, profile: &Profile) -> bool {
+    let switch = profile.guarding_switch;
+    switch.is_some_and(|(switch, _)| switch == index)
+}
+
 /// Returns whether the object at this index configures the monitor.
 pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
-    matches!(index, 0x100C | 0x100D | 0x1016 | 0x1017)
-        || profile
-            .guarding_switch
-            .is_some_and(|(switch, _)| switch == index)
+    matches!(index, 0x100C | 0x100D | 0x1016 | 0x1017) || is_switch(index, profile)
 }
 
 /// Monitor of other nodes: life guarding and heartbeat consumer.

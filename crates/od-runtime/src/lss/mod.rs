@@ -164,7 +164,7 @@ impl Slave {
                 })
             }
             Request::ActivateBitTiming { delay_ms } => {
-                let stored = |objects: &mut Objects<'_, D>| {
+                let active_rate = |objects: &mut Objects<'_, D>| {
                     if profile.is_own() {
                         stored(objects)[1]
                     } else {
@@ -172,7 +172,7 @@ impl Slave {
                         Some(objects.store.unsigned(bit_rate.index, bit_rate.sub) as u8)
                     }
                 };
-                let Some(bit_rate) = self.bit_rate.or_else(|| stored(objects)) else {
+                let Some(bit_rate) = self.bit_rate.or_else(|| active_rate(objects)) else {
                     // The device keeps the bit rate that it was delivered with.
                     return Action::Answer(None);
                 };

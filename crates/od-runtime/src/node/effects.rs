@@ -62,9 +62,10 @@ impl<D: Device> Machines<D> {
             self.event(match effect {
                 Effect::Written { index, sub } => {
                     let address = Address::new(index, sub);
-                    heartbeat |= address.index == 0x1017 || switches(objects, address.index);
-                    monitor |= error_control::is_configuration(address.index, objects.profile);
-                    communication |= is_configuration(objects, address.index);
+                    heartbeat |=
+                        index == 0x1017 || error_control::is_switch(index, objects.profile);
+                    monitor |= error_control::is_configuration(index, objects.profile);
+                    communication |= is_configuration(objects, index);
                     Event::Written(address)
                 }
                 _ if !D::STORAGE => continue,
@@ -93,14 +94,6 @@ impl<D: Device> Machines<D> {
             self.configure(objects);
         }
     }
-}
-
-/// Returns whether the object switches between heartbeat and node guarding.
-fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
-    objects
-        .profile
-        .guarding_switch
-        .is_some_and(|(switch, _)| switch == index)
 }
 
 /// Returns whether the object configures SYNC, EMCY, TIME, a PDO or a further SDO server.

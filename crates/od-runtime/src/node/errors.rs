@@ -131,7 +131,7 @@ fn requested(store: &Store<'_>, sub: u8, operational: bool) -> Behaviour {
     match store.try_word(0x1029, sub) {
         None | Some(0) if operational => Behaviour::PreOperational,
         Some(2) => Behaviour::Stopped,
-        // Only the bus-cover family accepts this value.
+        // A value of the bus-cover family; CiA 301 reserves it.
         Some(3) => Behaviour::Reset,
         _ => Behaviour::Nothing,
     }

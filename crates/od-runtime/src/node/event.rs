@@ -26,8 +26,8 @@ pub enum Event {
     Restored(u8),
     /// LSS activated this bit rate. The number is the manufacturer's own code, as in 2100h.
     BitRate(u8),
-    /// The node loaded this at a reset, and the storage is not as the last save left it: it is
-    /// neither blank nor complete, and no save was interrupted.
+    /// At a reset the storage was not as the last save left it: the node loaded this. A blank or
+    /// complete storage is not reported; for an interrupted save see [`SaveCut`](Self::SaveCut).
     Loaded(Loaded),
     /// A save of a master or of the device itself failed. The values saved before it remain.
     NotSaved,

@@ -13,8 +13,8 @@ use crate::rooms::{Rooms, Saving, Shared, Slices, Values};
 use crate::storage::Storage;
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
-    /// Returns the next frame to send, or `None` when all are sent. `now` is the time of the input
-    /// before it.
+    /// Returns the next frame to send, or `None` when all are sent. `now` is the time of the last
+    /// input.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         if node.idle {
@@ -36,7 +36,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         let frame = self.call(now, |node, objects| {
             let frame = node.next_frame(objects);
             if !objects.outbox.is_empty() {
-                // Handles reports of the application about live values that it brought up to date.
+                // The application brought live values up to date, and made requests.
                 node.finish(objects);
             } else if frame.is_none() {
                 node.next = next;
@@ -88,7 +88,7 @@ impl<D: Device, A, S> Node<D, A, S> {
 }
 
 impl<D: Device> Machines<D> {
-    /// Returns whether a frame may wait that is not in the queue.
+    /// Returns whether a frame that is not in the queue may wait.
     fn may_transmit(&self) -> bool {
         let Shared {
             tpdos,
@@ -135,7 +135,7 @@ impl<D: Device> Machines<D> {
         self.state == State::Operational && self.mute.is_none()
     }
 
-    /// Returns the earliest deadline, without those of waiting frames.
+    /// Returns the earliest deadline, except those of waiting frames.
     pub(super) fn timers(&self, save_due: Deadline) -> Deadline {
         let Shared {
             tpdos,

@@ -7,7 +7,7 @@ use crate::storage::image::Banks;
 /// Marks a restore in the place of a sub-index of 1010h.
 pub(super) const RESTORE: u8 = u8::MAX;
 
-/// Command of a download, with the sub-index of 1010h or 1011h. `Nothing` is all zeros.
+/// Command of a download, with the sub-index of 1010h or 1011h. `None` is all zeros.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(u8)]
 pub(super) enum Command {

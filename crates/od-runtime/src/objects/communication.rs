@@ -1,8 +1,8 @@
 //! Rules of CiA 301 for writing the communication objects.
 
-use od_model::Address;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
+use od_model::{Address, TransmissionType};
 
 use crate::number::number_in;
 use crate::profile::Profile;
@@ -98,7 +98,7 @@ pub(super) fn check<D: Services>(
         }
         (0x1400..=0x15FF, _) => match sub {
             1 if D::RPDOS => check_cob_id(true),
-            2 => allow(!D::RPDOS || !matches!(value, 241..=253)),
+            2 => allow(!D::RPDOS || !TransmissionType::new(value as u8).is_reserved(true)),
             _ => Ok(()),
         },
         (0x1800..=0x19FF, _) => match sub {

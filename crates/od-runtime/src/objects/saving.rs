@@ -105,7 +105,7 @@ impl<D: Services> Objects<'_, D> {
         !self.is_saving() && self.execute(KEEP) == Some(false)
     }
 
-    /// Executes a command, in several functions that each need much of a small stack.
+    /// Executes a command. Each part is a function of its own, since each needs much of a small stack.
     fn execute(&mut self, command: Command) -> Option<bool> {
         if command != KEEP {
             // A save in the background must be complete before this one begins.

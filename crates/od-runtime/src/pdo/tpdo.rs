@@ -331,8 +331,8 @@ impl Tpdo {
         // transmission that the timer itself caused does not shift its grid, even if the host is
         // late.
         let by_timer = core::mem::take(&mut self.by_timer);
-        let starts_anew = objects.profile.pdo.event_timer == EventTimer::SinceTransmission;
-        if starts_anew && !by_timer && self.event_at.is_set() {
+        let restarts = objects.profile.pdo.event_timer == EventTimer::SinceTransmission;
+        if restarts && !by_timer && self.event_at.is_set() {
             self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
         self.frame(data)

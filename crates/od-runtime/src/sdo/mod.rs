@@ -290,7 +290,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Handles a request for an upload (CiA 301, chapter 7.2.4.3.4).
+    /// Handles a request for an upload (CiA 301, chapter 7.2.4.3.6).
     fn handle_upload(
         &mut self,
         objects: &mut Objects<'_, D>,

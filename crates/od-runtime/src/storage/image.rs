@@ -69,6 +69,7 @@ pub use layout::MAX_VALUE;
 pub(crate) use layout::own_records;
 pub(crate) use medium::Medium;
 pub(crate) use merge::{Plan, write};
+pub use survey::device;
 
 /// Returns the number of EEPROM bytes that `dictionary` needs to save every value at its greatest
 /// length, twice.
@@ -90,12 +91,6 @@ pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) 
         i += 1;
     }
     2 * bytes.next_multiple_of(if page > word { page } else { word })
-}
-
-/// Number by which a saved set identifies its device: vendor-ID and product code (1018h). The
-/// revision number does not count, since a newer firmware changes it.
-pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
-    survey::device(dictionary)
 }
 
 /// Returns the [`device`] that wrote the newest set; `None` if no set is complete.

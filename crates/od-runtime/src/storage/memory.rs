@@ -80,7 +80,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
         let from = self.bytes.as_ref().get(offset..);
         let from = from.and_then(|from| from.get(..to.len()));
         let from = from.ok_or(StorageError::OutOfRange)?;
-        // A start reads the whole storage, so this compares words.
+        // A start reads the whole storage, so this copies words.
         let ((to, to_rest), (from, rest)) = (to.as_chunks_mut::<4>(), from.as_chunks::<4>());
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         copy(to_rest, rest);

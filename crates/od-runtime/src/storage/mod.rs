@@ -45,7 +45,7 @@ impl fmt::Display for StorageError {
         f.write_str(match self {
             Self::OutOfRange => "outside the storage",
             Self::Full => "the storage is too small for the values",
-            Self::PowerCut => "power went while the storage was written",
+            Self::PowerCut => "power failed while the storage was written",
             Self::Device => "the storage device failed",
             Self::NotWritten => "the storage does not hold what was written to it",
             Self::Foreign => "another device wrote the saved values",

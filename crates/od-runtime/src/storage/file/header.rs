@@ -32,8 +32,8 @@ pub struct Owner<'o> {
 }
 
 impl<'o> Owner<'o> {
-    /// A device with this dictionary, identified by vendor-ID and product code (1018h). Its name in
-    /// messages is `name`, and its identity is these two numbers in words.
+    /// A device with this dictionary. `name` is its name in messages and its identity: a file that
+    /// was made with another name is refused.
     ///
     /// ```no_run
     /// # use od_model::Dictionary;

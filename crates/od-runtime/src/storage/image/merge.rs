@@ -47,7 +47,7 @@ pub(crate) fn write(
 }
 
 impl Medium<'_> {
-    /// Writes the next set into the older one of two [surveyed](Banks::survey) banks, except its
+    /// Writes the next set into the older one of two [surveyed](Medium::survey) banks, except its
     /// commit word. If no next set is needed, [`Banks::is_some`] returns `false`.
     pub(crate) fn begin(
         &mut self,

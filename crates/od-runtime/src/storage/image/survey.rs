@@ -103,9 +103,9 @@ impl Medium<'_> {
     }
 }
 
-/// Returns the number by which a set identifies its device: version of the layout, vendor-ID and
-/// product code (1018h).
-pub(super) const fn device(dictionary: &Dictionary<'_>) -> u32 {
+/// Number by which a saved set identifies its device: version of the layout, vendor-ID and product
+/// code (1018h). The revision number does not count, since a newer firmware changes it.
+pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
     let mut crc = Crc32::new().after(&[VERSION]);
     let mut sub = 1;
     while sub <= 2 {
