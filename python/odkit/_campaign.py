@@ -1,4 +1,4 @@
-"""Many runs of one scenario, each with a seed of its own, on whatever runs functions elsewhere."""
+"""Many runs of one scenario, each with a seed of its own, in processes or on other computers."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Failure:
     error: str
     #: Its traceback.
     trace: str = field(compare=False)
-    #: What happened, for ``odkit run``; ``None`` if a script has no line for something.
+    #: The run as a script for ``odkit run``; ``None`` if a script has no line for one of its actions.
     script: str | None
     #: The script without the lines that the failure does not need; ``None`` if the script alone does not fail.
     shrunk: str | None

@@ -268,7 +268,7 @@ class Clock:
         now = self._real() if bench is None else micros * 1000
         ahead = self._ahead.setdefault(bench, self._last - now)
         if bench is None:
-            # Without a bench the clock goes on from the time of the last one, which may be hours ahead.
+            # Without a bench the clock continues from the time of the last one, which may be hours ahead.
             ahead = self._ahead[None] = max(ahead, self._last - now)
         self._last = now + ahead
         return self._last

@@ -80,7 +80,7 @@ impl Bench {
         let snapshot = devices.and_then(|devices| devices.cast::<Snapshot>().ok());
         match snapshot {
             Some(_) if time == Time::Real => {
-                return Err(Fault::value("a snapshot goes on in virtual time").into());
+                return Err(Fault::value("a snapshot continues in virtual time only").into());
             }
             Some(snapshot) => snapshot.get().restore(&mut state),
             None => {

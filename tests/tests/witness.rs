@@ -39,7 +39,7 @@ struct Sums {
 }
 
 #[test]
-fn what_was_read_before_a_safe_fix_is_read_after_it() {
+fn a_safe_fix_changes_no_value_that_other_programs_read() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = corpus::files(&corpus::folder(), corpus::TEXTS);
     for folder in ["../crates/od-eds/cases", "cases", "../devices/eds"] {

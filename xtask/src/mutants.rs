@@ -14,7 +14,7 @@ use crate::repo::{Repo, program};
 /// The version that is built. Other versions make different mutants.
 const VERSION: &str = "27.1.0";
 
-/// Seconds that the tests of a mutant may take; a change that makes them endless is caught.
+/// Seconds that the tests of a mutant may take. If they take longer, the mutant counts as caught.
 const PATIENCE: &str = "300";
 
 /// The least share of viable mutants that tests have to catch, in percent.

@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_program_started_ends_with_it() {
+    fn the_processes_of_a_program_end_with_it() {
         if !Path::new("/proc/self/stat").exists() {
             return;
         }

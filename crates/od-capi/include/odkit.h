@@ -108,7 +108,7 @@
 #define ODKIT_ABORT_STATE 134217762
 
 /*
- Flag of a frame: its identifier has 29 bits.
+ Flag of a frame: its CAN-ID has 29 bits.
  */
 #define ODKIT_EXTENDED 1
 

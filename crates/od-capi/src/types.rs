@@ -8,7 +8,7 @@ use core::ffi::c_void;
 /// node with this handle a function does nothing, and returns ODKIT_NO_NODE or false.
 pub type odkit_node = u32;
 
-/// Flag of a frame: its identifier has 29 bits.
+/// Flag of a frame: its CAN-ID has 29 bits.
 pub const ODKIT_EXTENDED: u8 = 1;
 /// Flag of a frame: it is a remote frame.
 pub const ODKIT_REMOTE: u8 = 2;

@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Reads a log, from standard input if the path is `-`, and prints what of it is not a frame.
+/// Reads a log, from standard input if the path is `-`, and reports lines that are not frames.
 ///
 /// # Errors
 /// The file cannot be read, or it is not a log.

@@ -191,7 +191,7 @@ fn a_number_may_be_the_can_id_of_a_partner() {
 }
 
 #[test]
-fn what_cannot_be_mapped_has_no_wrong_length() {
+fn a_value_that_cannot_be_mapped_has_no_wrong_length() {
     let bad = include_str!("../cases/E0504/bad.eds");
     let (before, mapped) = bad.split_once("\n[2000]").expect("what is mapped");
     let unmappable = mapped.replacen("PDOMapping=1", "PDOMapping=0", 1);

@@ -443,7 +443,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_dbc_file_says_where() {
+    fn a_text_that_is_not_a_dbc_file_is_refused_at_its_line() {
         for (text, why) in [
             (
                 TEXT.replacen("(0.5,0)", "(0.5 0)", 1),

@@ -1,9 +1,9 @@
-//! The CAN frame, and its identifier.
+//! The CAN frame, and its CAN-ID.
 
 use core::fmt;
 use embedded_can::{ExtendedId, Id, StandardId};
 
-/// A CAN identifier, 11 or 29 bits long.
+/// A CAN-ID: the identifier of a frame, 11 or 29 bits long.
 ///
 /// At most 7FFh if standard, 1FFF_FFFFh if extended.
 ///

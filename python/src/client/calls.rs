@@ -117,8 +117,8 @@ impl Client {
         self.close(py)
     }
 
-    /// Ends each call that waits, with `KeyboardInterrupt`, until `on` is `False`: for other threads, such as that of an
-    /// `odkit.AsyncClient`.
+    /// While `on` is `True`, each call that waits ends with `KeyboardInterrupt`. Another thread calls this, such as that of
+    /// an `odkit.AsyncClient`.
     #[pyo3(signature = (on=true))]
     fn interrupt(&self, on: bool) {
         self.stop.store(on, Ordering::Relaxed);
@@ -400,8 +400,8 @@ impl Client {
     }
 
     /// Sets the node ID of the slave with an LSS address (from `lss_scan`), and stores it with
-    /// `store=True`. Returns whether it has booted with it; a slave that had a node ID uses the new one after its
-    /// next reset. Some devices accept LSS in Stopped only: `client.nmt("stop", 5)`.
+    /// `store=True`. Returns whether the slave has booted with the new node ID; a slave that had a node ID uses the new
+    /// one after its next reset. Some devices accept LSS in Stopped only: `client.nmt("stop", 5)`.
     ///
     /// Raises `odkit.NodeError` if no slave has the address, or if it refuses.
     #[pyo3(signature = (address, node_id, store=false))]

@@ -270,7 +270,7 @@ impl Room {
         };
         let place = |at: &Option<At>| at.as_ref().map(|at| (at.name.clone(), at.step));
         let at = report.lesson.filter(|at| at.name.len() <= LESSON);
-        // A lost page makes no progress, but the student may go on without a connection.
+        // A lost page makes no progress, but the student may continue without a connection.
         if place(&at) != place(&row.at) {
             row.since = now;
         }

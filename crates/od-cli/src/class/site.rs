@@ -36,7 +36,7 @@ pub(super) struct Site {
 
 impl Site {
     /// Reads the page of this folder. Without a folder it is the page in the program, or that of the checkout. `language` is
-    /// that of a page which is opened without a wish for one.
+    /// that of a page whose address names none.
     ///
     /// # Errors
     /// The folder does not contain the page.
@@ -75,7 +75,7 @@ impl Site {
                 }
             }
         }
-        // It would answer in the place of the class.
+        // The service worker would respond instead of the class.
         site.files.remove("sw.js");
         Ok(site)
     }

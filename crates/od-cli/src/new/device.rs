@@ -44,8 +44,8 @@ impl DeviceFile {
         is_set(&self.description, "LSS_Supported")
     }
 
-    /// Bit rate in kbit/s: that of a DCF; otherwise 500 if the file supports it or names none, else the
-    /// highest one of the file that the board has, too.
+    /// Bit rate in kbit/s: that of a DCF. Without one it is 500, if the file supports 500 or names no bit
+    /// rate; otherwise the highest one that file and board support.
     ///
     /// # Errors
     /// A sentence, if the board has none of them.

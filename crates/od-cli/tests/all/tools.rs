@@ -41,7 +41,7 @@ fn a_tool_is_named_with_line_and_fix() {
 }
 
 #[test]
-fn what_a_tool_rejects_is_an_error_in_every_report() {
+fn a_file_that_a_tool_rejects_has_an_error_in_every_report() {
     let file = folder("tools-stop", &[("b.eds", STOPS)]).join("b.eds");
     let said = "python-canopen rejects the file: it cannot read `VendorNumber=` as a number";
     for format in ["full", "grouped", "github", "json", "sarif"] {

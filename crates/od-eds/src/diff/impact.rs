@@ -72,7 +72,7 @@ fn reals(entry: &Entry) -> (f64, f64) {
 }
 
 /// A new default breaks a master if the bus depends on it: the device type, the
-/// identifiers in use, the times of frames and the contents of the PDOs.
+/// CAN-IDs in use, the times of frames and the contents of the PDOs.
 pub(super) fn default(after: Dictionary<'_>, address: Address) -> Impact {
     let is_record = after
         .object(address.index)

@@ -133,7 +133,7 @@ fn objects_are_added_and_removed_in_the_lists_too() {
 }
 
 #[test]
-fn what_an_overlay_cannot_mean_is_a_fault() {
+fn a_section_that_cannot_be_applied_is_an_error() {
     for (text, expected) in [
         (
             "\n[2005]\nRemove=1\n[2001sub7]\nRemove=1 ; why\n",

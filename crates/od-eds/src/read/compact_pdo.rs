@@ -103,7 +103,7 @@ fn mask(info: &Section) -> Option<(u8, Span)> {
 fn communication(direction: &Direction, n: u16, mask: u8, span: Span) -> ObjectDescription {
     let cob_id = match n {
         0..4 => Value::NodeId(direction.identifier + 0x100 * u32::from(n)),
-        // Not valid until a master assigns an identifier.
+        // Not valid until a master assigns a CAN-ID.
         _ => Value::Unsigned(0x8000_0000),
     };
     let highest = 8 - mask.leading_zeros();

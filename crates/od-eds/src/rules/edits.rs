@@ -278,7 +278,7 @@ pub(crate) fn e0710_value_of_object_with_sub_objects(
 
 pub(crate) static E0711: Rule = Rule {
     title: "field does not apply to the type",
-    why: "A PDO carries values of fixed length, only strings and DOMAINs have room of a length that is chosen, and only numbers have limits. odkit ignores the field.",
+    why: "A PDO carries values of fixed length, only strings and DOMAINs have a capacity, and only numbers have limits. odkit ignores the field.",
     source: "odkit, object_dictionary!; CiA 301, data types and PDO mapping parameter",
     example: "add 0x2000 { name = \"Order\"; type = u8; capacity = 8 }",
     says: "{type} has a fixed length, and no {key}",

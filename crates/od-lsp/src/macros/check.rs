@@ -74,8 +74,8 @@ fn of_call(file: &File, call: &Call, find: Find<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Findings about the file, at its path: each error that no device can be built with, and of others one for each
-/// rule with their number.
+/// Findings about the file, at its path: each error that prevents a device. Other findings are shown once for each
+/// rule, with their number.
 fn of_file(file: &File, base: &Base, home: &Range<usize>, found: &mut Vec<Diagnostic>) {
     let mut show = |finding: &Finding, more: usize| {
         let mut told = told(file, home.clone(), finding);
@@ -113,9 +113,9 @@ fn of_file(file: &File, base: &Base, home: &Range<usize>, found: &mut Vec<Diagno
     }
 }
 
-/// Applies the statements of a variant, or those outside variants, to a description of which the checks found `before`;
-/// findings are at their tokens, or at the statement that caused them. `places` are the tokens of the call so far.
-/// Returns what the checks find in the result.
+/// Applies the statements of a variant, or those of the module, to a description with the findings `before`. New findings
+/// are shown at their tokens, or at the statement that caused them. `places` are the tokens of the call so far. Returns
+/// all findings about the result.
 fn patched(
     file: &File,
     call: &Call,

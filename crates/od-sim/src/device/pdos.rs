@@ -44,7 +44,7 @@ pub const fn of_mapping(index: u16) -> Option<(bool, u16)> {
     }
 }
 
-/// Can an entry be mapped into a TPDO, and into an RPDO?
+/// Returns whether an entry can be mapped into a TPDO, and whether into an RPDO.
 pub fn fits(entry: &Entry) -> (bool, bool) {
     let bits = entry.data_type.bits().unwrap_or(0);
     let fits = entry.mappable && bits > 0 && bits <= MOST_BITS;

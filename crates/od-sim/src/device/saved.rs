@@ -113,7 +113,7 @@ impl VirtualDevice {
     }
 }
 
-/// Is the value among those that 1010h saves?
+/// Returns whether 1010h saves the value.
 pub fn is_saved(entry: &Entry) -> bool {
     entry.group != od_model::Group::None && entry.access.writable() && entry.slot.len > 0
 }

@@ -157,7 +157,7 @@ impl VirtualDevice {
         })
     }
 
-    /// Is this broken?
+    /// Returns whether the host has set the fault of this name.
     pub fn is_broken(&self, name: &str) -> bool {
         match (self.encoder(), Fault::from_name(name)) {
             (Some(encoder), Some(fault)) => encoder.is_broken(fault),

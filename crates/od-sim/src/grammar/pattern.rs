@@ -8,7 +8,7 @@ use od_runtime::{CanId, Frame};
 use super::problem::Problem;
 use crate::logs::candump;
 
-/// An identifier, and bytes with gaps.
+/// A CAN-ID, and bytes with gaps.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Pattern {
     id: CanId,
@@ -89,7 +89,7 @@ impl Pattern {
         open: false,
     };
 
-    /// The identifier.
+    /// The CAN-ID.
     pub const fn id(&self) -> CanId {
         self.id
     }

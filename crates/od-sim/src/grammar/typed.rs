@@ -15,7 +15,7 @@ use crate::device::VirtualDevice;
 /// A frame by name; its bytes may depend on the current device.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Typed {
-    /// By its identifier and bytes.
+    /// By its CAN-ID and bytes.
     Frame(Frame),
     /// NMT command to a node, 0 for all; `None`: to the current device.
     Nmt(Command, Option<u8>),

@@ -25,7 +25,7 @@ pub struct Quiz {
 pub struct Judgement {
     /// All correct.
     pub right: bool,
-    /// The identifier is wrong.
+    /// The CAN-ID is wrong.
     pub wrong_identifier: bool,
     /// The number of bytes is wrong.
     pub wrong_length: bool,

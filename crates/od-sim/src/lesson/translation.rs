@@ -48,8 +48,8 @@ pub fn translate(original: &str, translation: &str) -> Result<String, Vec<Proble
     }
 }
 
-/// Returns whether a text is a translation, which is not a lesson without its original: it names its language and nothing else that
-/// a translation does not have, and it has no set-up and no solution.
+/// Returns whether a text is a translation, which needs its original to be a lesson. It names its language, its front matter has
+/// only keys of translations, and it has no set-up and no solution.
 pub fn is_translation(text: &str) -> bool {
     let (front, sections) = split(text);
     let keys: Vec<&str> = (front.iter())
@@ -66,7 +66,7 @@ pub fn is_translation(text: &str) -> bool {
         && !has("solution")
 }
 
-/// A heading with what follows it; the first one of a lesson has no heading.
+/// A heading and the parts below it; the first section of a lesson has no heading.
 struct Section<'t> {
     line: u32,
     heading: &'t str,
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_reported_with_its_line() {
+    fn a_difference_from_the_original_is_reported_with_its_line() {
         let found = |german: &str| {
             let problems = translate(ORIGINAL, german).expect_err("it does not fit");
             let lines = problems

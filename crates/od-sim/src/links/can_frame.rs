@@ -1,5 +1,5 @@
 //! `struct can_frame` of Linux, the message of a raw CAN socket: 16 bytes, with an
-//! identifier in the byte order of the machine.
+//! CAN-ID in the byte order of the machine.
 
 use std::prelude::v1::*;
 

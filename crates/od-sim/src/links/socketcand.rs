@@ -202,7 +202,7 @@ fn write(frame: &Frame, stamp: u64, blank: &str, out: &mut Vec<u8>) {
     out.extend_from_slice(text.as_bytes());
 }
 
-/// Up to three digits are an identifier of 11 bits, eight digits are one of 29 bits.
+/// Up to three digits are a CAN-ID of 11 bits, eight digits are one of 29 bits.
 fn id(word: &str) -> Option<CanId> {
     let raw = hex(word)?;
     match word.len() {

@@ -41,7 +41,7 @@ const TEN_MICROS: u32 = 1;
 /// Directions of a frame.
 const SENT: u8 = 1;
 const TO_SEND: u8 = 2;
-/// Bit 31 of an identifier: 29 bits.
+/// Bit 31 of a CAN-ID: 29 bits.
 const EXTENDED: u32 = 1 << 31;
 
 /// The records of a BLF log; `None` if the bytes are not one.
@@ -194,7 +194,7 @@ struct Message {
 /// The data of an event with a frame.
 fn message(kind: u32, data: &[u8]) -> Option<Message> {
     let byte = |at: usize| data.get(at).copied();
-    // Of each kind: flags with direction and RTR, DLC, identifier, FD flag, and where the data begins.
+    // Of each kind: flags with direction and RTR, DLC, CAN-ID, FD flag, and where the data begins.
     let (direction, remote, dlc, id, is_fd, start) = match kind {
         kind::CAN_FD_MESSAGE_64 => {
             let flags = word(data, 12)?;

@@ -138,7 +138,7 @@ fn direction(rest: &mut Cursor<'_>) -> bool {
     sent
 }
 
-/// Returns whether a flag in the identifier marks an error frame of SocketCAN.
+/// Returns whether a flag in the CAN-ID marks an error frame of SocketCAN.
 fn is_error(frame: &str) -> bool {
     let id = frame.split('#').next().unwrap_or_default();
     let raw = u32::from_str_radix(id, 16).ok().filter(|_| id.len() == 8);
@@ -187,7 +187,7 @@ pub fn parse_frame(text: &str) -> Result<Frame, Problem> {
     Ok(Frame::with_dlc(id, bytes, len as u8))
 }
 
-/// An identifier of 3 or 8 hex digits.
+/// A CAN-ID of 3 or 8 hex digits.
 pub(crate) fn parse_id(text: &str) -> Result<CanId, Problem> {
     let bad = |message: String| Err(Problem::at(1, message, ID));
     if let Some(at) = text.chars().position(|c| !c.is_ascii_hexdigit()) {

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_python_can_prints_is_read() {
+    fn a_printout_of_python_can_is_read() {
         let text = "\
 Timestamp:        1.500000    ID:      701    S Rx                DL:  1    00                          Channel: 0
 Timestamp:        1.600000        ID: 0601    S Tx                DL:  8    40 18 10 01 00 00 00 00     '@.......' Channel: can0

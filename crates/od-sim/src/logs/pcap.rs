@@ -164,7 +164,7 @@ fn records(file: File<'_>, nanos: bool, link: u16) -> Result<Capture, String> {
     capture.finish(None)
 }
 
-/// One frame of a capture: identifier with flags, big endian, then length and data.
+/// One frame of a capture: CAN-ID with flags, big endian, then length and data.
 fn socketcan(at: Instant, bytes: &[u8]) -> Option<Record> {
     let raw = u32::from_be_bytes(bytes.get(..4)?.try_into().ok()?);
     let dlc = (*bytes.get(4)?).min(8);

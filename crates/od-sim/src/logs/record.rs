@@ -49,14 +49,14 @@ impl Record {
     }
 }
 
-/// Bit 29 of an identifier of SocketCAN: an error frame.
+/// Bit 29 of a CAN-ID of SocketCAN: an error frame.
 pub(super) const ERROR: u32 = 1 << 29;
 /// Bit 30: a remote frame.
 pub(super) const REMOTE: u32 = 1 << 30;
-/// Bit 31: an identifier of 29 bits.
+/// Bit 31: a CAN-ID of 29 bits.
 pub(super) const EXTENDED: u32 = 1 << 31;
 
-/// Reads an identifier from these digits, if it fits into 11 or 29 bits.
+/// Reads a CAN-ID from these digits, if it fits into 11 or 29 bits.
 pub(super) fn id(digits: &str, radix: u32, extended: bool) -> Result<CanId, String> {
     let raw = u32::from_str_radix(digits, radix)
         .map_err(|_| format!("`{digits}` is not a valid CAN-ID"))?;

@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read() {
+    fn a_written_recording_is_read_again() {
         let text = ";odkit-twin=1\n;twin length 10s\n;twin answer 400us\n;twin boot-up 1200ms\n\
                     ;twin heartbeat 990ms\n;twin tpdo 1 50ms\n\
                     ;twin emcy 20ms 1000h 01h 00 00 00 00 00\n;twin without segments blocks\n\
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_valid_gets_words() {
+    fn a_line_that_is_not_valid_is_refused_in_words() {
         for (line, word) in [
             (";odkit-twin=2", "version `2`"),
             (";twin answer 1ms", "before `;twin `"),

@@ -132,7 +132,7 @@ mod tests {
         clockwork.follow(0, &[1.0, f64::NAN], true, Instant::ZERO);
         for _ in 0..3 {
             let due = clockwork.due().unwrap_or(Instant::ZERO);
-            assert!(clockwork.take(due).is_some(), "it goes on");
+            assert!(clockwork.take(due).is_some(), "it continues");
         }
         assert_eq!(clockwork.due(), Some(Instant::from_micros(300)));
     }

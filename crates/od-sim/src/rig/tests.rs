@@ -105,7 +105,7 @@ fn a_silent_node_is_asked_once_and_gets_no_abort() {
 }
 
 #[test]
-fn what_is_under_way_ends_with_its_bus() {
+fn a_transfer_ends_with_its_bus() {
     let mut rig = rig(&["gxmm"]);
     let job = rig.read(NodeId::new(9).unwrap(), Address::new(0x1000, 0));
     rig.clear();

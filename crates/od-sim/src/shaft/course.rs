@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_old_to_be_remembered_was_as_the_oldest() {
+    fn before_the_oldest_piece_the_speed_was_the_same() {
         let mut course = Course::AT_REST;
         for step in 1..=100u32 {
             course.add(ms(u64::from(step) * 10), step as i32, Ramp::NONE);

@@ -1,4 +1,4 @@
-//! Frames on a line that takes time: one at a time, the lowest identifier first. A station that is not connected has a
+//! Frames on a line that takes time: one at a time, the lowest CAN-ID first. A station that is not connected has a
 //! wire of its own, so its attempts take no time of the others.
 //!
 //! Times are in nanoseconds, because a bit at 800 kbit/s takes 1.25 µs.
@@ -18,7 +18,7 @@ pub enum FrameError {
     OtherBitRate,
     /// Reflections on a line without its terminators destroyed it.
     Reflections,
-    /// Another station sent a different frame with the same identifier at the same moment.
+    /// Another station sent a different frame with the same CAN-ID at the same moment.
     SameId,
     /// A short circuit between CAN_H and CAN_L: the sender cannot make a bit dominant.
     ShortCircuit,
@@ -44,7 +44,7 @@ pub struct Disturbance {
     pub bus_off: bool,
 }
 
-/// Mailboxes of a CAN controller: it sends the frame with the lowest identifier first.
+/// Mailboxes of a CAN controller: it sends the frame with the lowest CAN-ID first.
 pub(crate) const MAILBOXES: usize = 3;
 /// Limit of waiting frames of the outside; a program has a queue before its controller.
 const QUEUE: usize = 1000;
@@ -55,7 +55,7 @@ const FLAG: u64 = 6;
 /// Error flag and its delimiter.
 const ERROR_FRAME: u64 = FLAG + 8;
 /// Bits of a frame that another station destroys, with the flags of both: that station sees no valid
-/// bit times within the identifier.
+/// bit times within the CAN-ID.
 const DESTROYED: u64 = 20 + FLAG + ERROR_FRAME;
 /// Bits that an error passive controller waits after the intermission before it sends again (ISO 11898-1).
 const SUSPENSION: u64 = 8;
@@ -117,9 +117,9 @@ struct Flight {
 /// A frame that ended.
 #[derive(Clone, Debug)]
 pub(crate) struct Ended {
-    /// The senders: one, or several that sent frames with the same identifier at the same moment.
+    /// The senders: one, or several that sent frames with the same CAN-ID at the same moment.
     pub(crate) senders: Vec<Waiting>,
-    /// Senders that failed while the frame of the others went on.
+    /// Senders that failed while the others continued their frame.
     pub(crate) beaten: Vec<Waiting>,
     /// Reason of the failure; `None`: the frame came through.
     pub(crate) trouble: Option<FrameError>,

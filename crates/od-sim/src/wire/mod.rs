@@ -2,8 +2,8 @@
 //!
 //! A [`Bus`](crate::bus::Bus) begins with an ideal line, on which every frame reaches all stations
 //! at once. A real line treats a frame as CAN does: it takes the time of its bits, one frame at a time,
-//! the lowest identifier first. A station with another bit rate destroys the frame while it is error active.
-//! Two stations that send different frames with one identifier at the same moment destroy both. A frame that
+//! the lowest CAN-ID first. A station with another bit rate destroys the frame while it is error active.
+//! Two stations that send different frames with one CAN-ID at the same moment destroy both. A frame that
 //! no station acknowledges is repeated. A controller with too many errors goes bus-off. Random events are
 //! drawn from a seed, so the next run repeats them. With a [`cable`] the line has a length, a sample point and clocks
 //! that deviate.
@@ -40,7 +40,7 @@ pub(crate) struct Station {
     pub rate: Option<u16>,
 }
 
-/// The result of an attempt of one or more stations with the same identifier.
+/// The result of an attempt of one or more stations with the same CAN-ID.
 pub(super) struct Attempt {
     /// Reason of the failure; `None` if the frame will get through.
     pub(super) trouble: Option<FrameError>,
@@ -209,7 +209,7 @@ impl Line {
             && same_rate(sender.rate, listener.rate)
     }
 
-    /// Makes one attempt on a real line: the stations that start a frame with the same identifier at this moment,
+    /// Makes one attempt on a real line: the stations that start a frame with the same CAN-ID at this moment,
     /// at least one.
     pub(super) fn try_once(
         &mut self,
@@ -252,7 +252,7 @@ impl Line {
 
     /// All starters have won the arbitration. The first bit in which their frames differ decides (ISO 11898-1, bit
     /// monitoring): a station that sends it recessive sees a bit error. Error active, it destroys the frame of
-    /// all; error passive, it cannot, and the others go on.
+    /// all; error passive, it cannot, and the others continue.
     fn attempt_of(&mut self, stations: &[Station], starters: &[(usize, Frame)]) -> Attempt {
         let (mut left, mut beaten) = (starters.to_vec(), Vec::new());
         if self.is_shorted()
@@ -477,7 +477,7 @@ impl Line {
     }
 }
 
-/// Returns the first bit in which frames with one identifier differ, and the frames whose bit is recessive there.
+/// Returns the first bit in which frames with one CAN-ID differ, and the frames whose bit is recessive there.
 fn first_difference(frames: &[(usize, Frame)]) -> Option<(u64, Vec<(usize, Frame)>)> {
     let (_, first) = frames.first()?;
     if frames.iter().all(|(_, frame)| frame == first) {

@@ -15,7 +15,7 @@ use crate::device::VirtualDevice;
 /// Limit of PDOs that are searched in a device's dictionary: 512.
 const MOST: u16 = 0x1FF;
 
-/// Describes a frame whose identifier belongs to a PDO of one of the devices.
+/// Describes a frame whose CAN-ID belongs to a PDO of one of the devices.
 pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words> {
     let (device, service, number, mapping) = find(devices, frame)?;
     Some(words(device, service, number, mapping, frame))

@@ -92,7 +92,7 @@ impl Dut<'_> {
         Ok(())
     }
 
-    /// Sends a data frame with an 11-bit identifier.
+    /// Sends a data frame with an 11-bit CAN-ID.
     pub(crate) fn send_to(&mut self, id: u16, data: &[u8]) -> Checked {
         match Frame::new(od_wire::CanId::standard(id), data) {
             Some(frame) => self.send(frame),
@@ -161,12 +161,12 @@ impl Dut<'_> {
         Ok(None)
     }
 
-    /// The next data frame with this identifier.
+    /// The next data frame with this CAN-ID.
     pub(crate) fn next_of(&mut self, id: u16, micros: u64) -> Checked<Option<Heard>> {
         self.next(micros, |frame| is_data(frame, id))
     }
 
-    /// All data frames with this identifier within `micros` microseconds.
+    /// All data frames with this CAN-ID within `micros` microseconds.
     pub(crate) fn all_of(&mut self, id: u16, micros: u64) -> Checked<Vec<Heard>> {
         self.is_timed = true;
         let until = self.now().plus_micros(micros);

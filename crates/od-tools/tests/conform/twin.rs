@@ -60,7 +60,7 @@ fn twin(text: &str) -> (Bus, Recorded) {
     (alone(device), recorded)
 }
 
-/// The times of the frames with an identifier, within a second.
+/// The times of the frames with a CAN-ID, within a second.
 fn moments(bus: &mut Bus, id: u16) -> Vec<Instant> {
     let mut link = OnBench(bus);
     let until = link.now() + Duration::from_secs(1);

@@ -41,7 +41,7 @@ fn run(input: &[u8]) {
             );
         }
     }
-    // A line may send a frame four thousand million times.
+    // A line may send a frame four billion times.
     for _ in 0..200 {
         while let Some(done) = console.step(&mut bench) {
             if let Ok(Some(frame)) = done {

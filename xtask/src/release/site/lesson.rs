@@ -100,7 +100,7 @@ mod tests {
                           # no heading\n````\n\n### What just happened\n\nIt started.\n\n```solution\npower on\n```\n";
 
     #[test]
-    fn what_gives_the_solution_away_is_closed() {
+    fn a_part_with_the_solution_is_closed() {
         let (name, title, text) =
             page(LESSON, Path::new("a/01-boot-up.md")).expect("it is a lesson");
         assert_eq!((&*name, &*title), ("boot-up", "Boot-up"));

@@ -11,7 +11,7 @@ use crate::repo::program;
 use crate::setup::python;
 use crate::test::context::Context;
 
-/// Folder in which pip would put what python-can and pytest look for.
+/// Folder with the metadata of the package, as pip makes it: python-can and pytest find the package by it.
 const INFO: &str = "odkit-0.1.0.dist-info";
 const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 

@@ -13,7 +13,7 @@ use crate::fix::Fix;
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_value};
 
-/// The bit for a 29-bit identifier.
+/// The bit for a 29-bit CAN-ID.
 const EXTENDED: u32 = 1 << 29;
 
 /// Direction of the frames with a CAN-ID, seen from the device.

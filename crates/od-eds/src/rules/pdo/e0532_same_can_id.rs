@@ -22,7 +22,7 @@ const DEFAULT: Form = Form {
     ..Form::OWN
 };
 
-/// Sentence for a number and a COB-ID with the node ID that are equal for one node ID.
+/// Sentence for a fixed number that equals a COB-ID with `$NODEID` at one node ID.
 const ONE: Form = Form {
     says: "{object} has the CAN-ID of {other}, {can:03X}h, at node ID {node}",
     ..Form::OWN

@@ -223,7 +223,7 @@ fn a_lesson_in_german_says_in_german_how_a_condition_stands() {
 }
 
 #[test]
-fn what_holds_when_a_step_begins_is_already_so_until_it_changes() {
+fn a_condition_that_is_met_when_a_step_begins_counts_after_a_change() {
     let (mut bench, mut progress) =
         begin("value 1017h = 0\nled red off\nnot came abort\nsent sync");
     let already = |bench: &mut Bench, progress: &mut Progress| {

@@ -21,7 +21,7 @@ struct Job {
 pub(super) struct Jobs(Vec<Job>);
 
 impl Jobs {
-    /// Adds a job, or changes the interval of the job with this identifier. Its first frame is
+    /// Adds a job, or changes the interval of the job with this CAN-ID. Its first frame is
     /// sent at once, and no further one if `every` is 0. Returns whether there is room.
     pub(super) fn add(&mut self, frame: Frame, every: u64, now: Instant) -> bool {
         self.delete(frame.id());

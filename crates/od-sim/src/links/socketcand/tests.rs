@@ -176,7 +176,7 @@ fn jobs_continue_until_they_are_deleted() {
     assert_eq!(client.say("< add 0 20000 123 2 42 43 >"), "(123#4243)");
     assert_eq!(client.wait(45_000), "(123#4243)(123#4243)");
     assert_eq!(client.say("< update 123 1 5 >"), "");
-    assert_eq!(client.wait(20_000), "(123#05)", "the timer goes on");
+    assert_eq!(client.wait(20_000), "(123#05)", "the timer continues");
     assert_eq!(client.say("< add 0 0 124 0 >"), "(124#)", "once");
     assert_eq!(client.say("< delete 123 >"), "");
     assert_eq!(client.wait(100_000), "");

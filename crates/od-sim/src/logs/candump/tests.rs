@@ -111,7 +111,7 @@ fn milliseconds(bytes: &[u8]) -> Vec<u64> {
 fn times_since_the_frame_before_are_added_up() {
     let deltas = " (000.000000)  can0  701   [1]  00\n (000.100000)  can0  601   [1]  40\n (000.001000)  can0  581   [1]  80\n";
     assert_eq!(milliseconds(deltas.as_bytes()), [0, 100, 101]);
-    // The rows of a table can be in the order of their identifiers.
+    // The rows of a table can be in the order of their CAN-IDs.
     let rows = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n\
         0,00000181,false,Rx,0,1,05,\n100000,00000181,false,Rx,0,1,05,\n50000,00000281,false,Rx,0,1,05,\n";
     assert_eq!(milliseconds(rows.as_bytes()), [0, 50, 100]);

@@ -149,7 +149,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("sdo-below-low", transfer::below_low,
             "CiA 301 7.2.4.3.17: A value below the lower limit is refused with 06090030h or 06090032h."),
         check("sdo-parameters", transfer::parameters,
-            "CiA 301 7.5.2.33: 1200h has the identifiers of the first SDO.").applies("1200h:01, 1200h:02"),
+            "CiA 301 7.5.2.33: 1200h has the CAN-IDs of the first SDO.").applies("1200h:01, 1200h:02"),
         check("sdo-servers", transfer::servers,
             "CiA 301 7.5.2.33: The node has the SDO servers of the EDS from 1201h on."),
         check("sdo-clients", transfer::clients,

@@ -15,7 +15,7 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.number(0x1005, 0)?;
     ensure(
         raw & 0x3FFF_F800 == 0 || raw & 0x2000_0000 != 0,
-        "an identifier of 11 bits, or bit 29, in 1005h",
+        "a CAN-ID of 11 bits, or bit 29, in 1005h",
         format!("{raw:08X}h was read"),
     )
 }
@@ -28,7 +28,7 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     let other = (old & !0x7FF) | 0x4F2;
     dut.keep(COB_ID)?;
     if dut.download(COB_ID, &other.to_le_bytes())?.is_err() {
-        return lacks("the node does not take another identifier");
+        return lacks("the node does not accept another CAN-ID");
     }
     let id = CobId::new(pdo.cob_id).can_id();
     dut.nmt(Command::Start)?;
@@ -401,12 +401,12 @@ pub(super) fn time_cob_id(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.number(0x1012, 0)?;
     ensure(
         raw & 0x1FFF_F800 == 0 || raw & 0x2000_0000 != 0,
-        "an identifier of 11 bits, or bit 29, in 1012h",
+        "a CAN-ID of 11 bits, or bit 29, in 1012h",
         format!("{raw:08X}h was read"),
     )
 }
 
-/// The node works on after valid and invalid TIME messages.
+/// The node continues to work after valid and invalid TIME messages.
 pub(super) fn time(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.number(0x1012, 0)? as u16 & 0x7FF;
     for data in [&[0, 0, 0, 0, 0x20, 0x40][..], &[], &[1, 2, 3]] {
