@@ -107,6 +107,18 @@ test('a trainer sees two students, offers a lesson, sees who is stuck, and empti
   await becomes('both are here', () => trainer.getByRole('status').first().innerText(), '2 of 2 here');
   await becomes('the names', () => trainer.locator('tbody strong').allTextContents(), ['Anna <b>', 'Ben']);
 
+  // A page that reports a lesson of four billion steps leaves the table as it is.
+  const say = async (what, body) => (await fetch(new URL(`class/${what}`, site), { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) })).json();
+  for (const bad of ['E\u001b[2J', 'a\u202eb', ' ', 'x'.repeat(10_000)]) assert.deepEqual(await say('join', { name: bad }), { why: 'name' });
+  const { key, group } = await say('join', { name: 'Eve <script>' });
+  for (const name of ['nmt', '\u202etmn']) {
+    const lesson = { name, step: 1, of: 0xffff_ffff, wrong: 0, hints: 0, shown: 0 };
+    assert.deepEqual(await say('report', { key, group, hidden: false, lesson, finished: [name], answered: 0 }), { offer: null });
+  }
+  await becomes('her place', () => cell('Eve', 0), 'free bench');
+  await trainer.getByRole('button', { name: 'Remove Eve <script> from the table' }).click();
+  await becomes('the names', () => trainer.locator('tbody strong').allTextContents(), ['Anna <b>', 'Ben']);
+
   // The trainer's own lesson is the first to offer; Anna opens it, Ben does not.
   await trainer.getByRole('button', { name: 'Offer to all' }).click();
   await anna.getByText('Your trainer offers the lesson “Our machine”.').waitFor();

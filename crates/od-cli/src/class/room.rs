@@ -13,6 +13,8 @@ const NAME: usize = 40;
 const LESSON: usize = 120;
 /// Maximum number of lessons that a page reports as done.
 const LESSONS: usize = 200;
+/// Maximum number of steps of a lesson: the page of the trainer draws each of them.
+const STEPS: u32 = 200;
 /// A page reports every two seconds. After this time without a report, its connection is lost.
 const LOST: Duration = Duration::from_secs(8);
 /// As [`LOST`], for a page in a hidden tab: browsers slow its timers down to one call a minute.
@@ -37,6 +39,18 @@ pub(super) struct At {
     hints: u32,
     /// Steps of the lesson that the page did for the student.
     shown: u32,
+}
+
+impl At {
+    /// Returns whether the page of the trainer can show the place.
+    fn is_valid(&self) -> bool {
+        is_name(&self.name) && self.step <= self.of && self.of <= STEPS
+    }
+}
+
+/// Returns whether a text can be the name of a lesson.
+fn is_name(text: &str) -> bool {
+    text.len() <= LESSON && od_model::Visible(text).line() == text
 }
 
 /// A report of a page.
@@ -269,16 +283,13 @@ impl Room {
             });
         };
         let place = |at: &Option<At>| at.as_ref().map(|at| (at.name.clone(), at.step));
-        let at = report.lesson.filter(|at| at.name.len() <= LESSON);
+        let at = report.lesson.filter(At::is_valid);
         // A lost page makes no progress, but the student may continue without a connection.
         if place(&at) != place(&row.at) {
             row.since = now;
         }
         let names = report.finished.into_iter();
-        row.finished = names
-            .filter(|name| name.len() <= LESSON)
-            .take(LESSONS)
-            .collect();
+        row.finished = names.filter(|name| is_name(name)).take(LESSONS).collect();
         row.at = at;
         row.heard = now;
         row.is_hidden = report.hidden;
@@ -444,6 +455,34 @@ mod tests {
         let presence = |room: &Room, after| room.rows(later + after)[0].presence;
         assert_eq!(presence(&room, MINUTE), Presence::Hidden);
         assert_eq!(presence(&room, LOST_HIDDEN), Presence::Lost);
+    }
+
+    #[test]
+    fn a_report_that_the_table_cannot_show_has_no_place_and_no_such_lessons() {
+        let (mut room, now) = room();
+        room.join("Anna", None, "a".into(), now).expect("joined");
+        let mut place = |name: &str, step, of| {
+            let lesson = Some(At {
+                name: name.into(),
+                of,
+                ..report("a", step, 0).lesson.expect("a lesson")
+            });
+            let finished = vec![name.to_owned()];
+            let report = Report {
+                lesson,
+                finished,
+                ..report("a", 0, 0)
+            };
+            room.report(report, now).expect("known");
+            let row = &room.rows(now)[0];
+            (row.at.is_some(), row.finished.len())
+        };
+        assert_eq!(place("nmt", 4, 4), (true, 1));
+        assert_eq!(place("nmt", 0, u32::MAX), (false, 1));
+        assert_eq!(place("nmt", 5, 4), (false, 1));
+        for name in ["\u{202e}tmn", "a\u{1b}[2J", "a\nb", &"x".repeat(LESSON + 1)] {
+            assert_eq!(place(name, 0, 4), (false, 0), "{name:?}");
+        }
     }
 
     #[test]
