@@ -428,6 +428,22 @@ test('without storage the lessons open, the list knows the progress of this visi
   await close();
 });
 
+test('the last lesson of a group offers the first one of the next group', async () => {
+  const { page, faults, close } = await open({ hash: '#lesson=preset-then-save' });
+  const list = await page.evaluate(async () => {
+    const all = await (await fetch('lessons.json')).json();
+    const names = all.filter(({ level }) => level === 1).map(({ name }) => name);
+    localStorage.setItem('odkit.progress', JSON.stringify(Object.fromEntries(names.map((name) => [name, [1, 1, '2026-01-01']]))));
+    return all;
+  });
+  const lesson = page.locator('od-lesson');
+  await lesson.locator('.checks').waitFor();
+  await showSteps(lesson, await lesson.locator('.lesson-steps i').count());
+  await becomes('the next group', () => lesson.getByRole('button', { name: /^Next: / }).textContent(), `Next: ${list.find(({ level }) => level === 2).title}`);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test('a finished lesson offers the next one', async () => {
   const { page, faults, close } = await open({ hash: '#lesson=gear' });
   const lesson = page.locator('od-lesson');

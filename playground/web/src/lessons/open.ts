@@ -128,9 +128,10 @@ export async function openFile(file: File): Promise<boolean> {
 
 let last = '';
 
-/** The lesson that follows this one in the list: the next that is not done, or null. */
+/** The lesson that follows this one in the list, which is in groups by level: the next that is not done, or null. */
 export async function following(name: string): Promise<Listed | null> {
-  const all = await lessons().catch(() => []);
+  const group = ({ isOwn, level }: Listed): number => (isOwn ? 0 : level);
+  const all = (await lessons().catch(() => [])).sort((a, b) => group(a) - group(b));
   const done = finished();
   const at = all.findIndex((one) => one.name === name);
   return [...all.slice(at + 1), ...all.slice(0, Math.max(at, 0))].find((one) => !done.has(one.name)) ?? null;
