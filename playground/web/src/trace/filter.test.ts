@@ -63,6 +63,8 @@ test('CAN-IDs with h, of 29 bits, and in lists', () => {
     ['sdo,hb', [true, false, true, false]],
     ['!181,705', [true, false, false, true]],
     ['180-18F,700:780', [false, true, true, false]],
+    ['181h,29-bit', [false, true, false, true]],
+    ['11bit hb', [false, false, true, false]],
   ] as const) {
     assert.deepEqual([answer, pdo, heartbeat, extended].map((one) => passes(text, one)), expected, text);
   }

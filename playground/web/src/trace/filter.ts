@@ -142,6 +142,7 @@ class Parser {
     const service = SERVICES[plain] ?? /^r?pdo[1-4]$/.test(plain);
     if (service) return Array.isArray(service) ? (frame) => service.includes(frame.tag.service) : (frame) => frame.tag.text.toLowerCase() === plain;
     if (plain === 'tx' || plain === 'rx') return (frame) => frame.fromPage === (plain === 'tx');
+    if (/^(11|29)-?bit$/.test(plain)) return (frame) => frame.extended === plain.startsWith('29');
     if (plain === 'rtr') return (frame) => frame.remote;
     if (plain === 'abort') return (frame) => frame.tag.service === 'SDO' && frame.data[0] === 0x80;
     const masked = /^(?:0x)?([0-9a-f]{1,8}):(?:0x)?([0-9a-f]{1,8})$/i.exec(plain);

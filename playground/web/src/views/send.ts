@@ -34,7 +34,7 @@ class Send extends View {
             if (select.value) state.draft.value = { text: select.value };
             select.value = '';
           }}><option value="">${T.sendList.more}</option>${templates(state.nodeId.value).map(({ name, frame }) => html`<option value=${typedForm(unpack(frame, 0))}>${name}</option>`)}</select></label>
-          <button class="small sync" title=${T.send.sync} @click=${() => sendLine('sync')}>SYNC</button>
+          <button class="small" title=${T.send.sync} @click=${() => sendLine('sync')}>SYNC</button>
         </div>
       </div>
       <od-send-list></od-send-list>
