@@ -56,6 +56,11 @@ check('a link to a lesson can name the language', { hash: '#lesson=nmt&lang=de',
   await title(page, '1 Starte Knoten 5').waitFor();
 });
 
+for (const [device, name] of [['io', 'E/A-Modul (CiA 401)'], ['drive', 'Servoantrieb mit zwei Achsen (CiA 402)']])
+  check(`the German page names a virtual device in German: ${device}`, { hash: `#device=${device}&node=4&lang=de`, own: true }, async (page) => {
+    await page.locator('.device-title').getByText(name, { exact: true }).waitFor();
+  });
+
 check('320 pixels are enough for the German page', { width: 320, height: 700, locale: 'de-DE' }, async (page) => {
   for (const name of ['Encoder', 'Bus', 'Objekte']) {
     await page.getByRole('tab', { name }).click();

@@ -47,7 +47,7 @@ export const page = {
     edit: (name) => `EDS von ${name} bearbeiten`,
     replaced: (before, after) => `${after} ersetzt ${before}. Das EEPROM ist das eines neuen Geräts.`,
     undo: (name) => `Rückgängig: zurück zu ${name}`,
-    kind: (title) => (/CiA/.test(title) ? title : `Absolut-Encoder, ${title}`),
+    kind: (title) => ({ 'I/O module (CiA 401)': 'E/A-Modul (CiA 401)', 'Servo drive with two axes (CiA 402)': 'Servoantrieb mit zwei Achsen (CiA 402)' } as Record<string, string>)[title] ?? (/CiA/.test(title) ? title : `Absolut-Encoder, ${title}`),
     families: { en: 'EN580C: optisch', eam: 'EAM: magnetisch', g: 'Mit Bushaube: Dreh- und DIP-Schalter, Status-LED' },
     others: 'Andere',
     anyway: 'Trotzdem starten',
