@@ -15,6 +15,8 @@ use crate::link::Heard;
 pub(crate) const ANSWER: u64 = 1_000_000;
 /// Time to watch for a forbidden frame.
 pub(crate) const QUIET: u64 = 100_000;
+/// First of the CAN-IDs that cases give to services for a while: no service has them by default (CiA 301, 7.3.4).
+pub(crate) const FREE: u16 = 0x6A0;
 /// Time limit from a reset to the boot-up message.
 const BOOT: u64 = 10_000_000;
 /// Time limit for an NMT command.

@@ -183,6 +183,13 @@ impl Eds {
         candidates.iter().copied().find(|index| !self.has(*index))
     }
 
+    /// An index that the EDS does not have, of some that few devices have.
+    pub(crate) fn missing(&self) -> Option<u16> {
+        self.absent(&[
+            0x1004, 0x1024, 0x1FFF, 0x1F7E, 0x5FFF, 0x9FFF, 0x103F, 0x1EFF,
+        ])
+    }
+
     /// Returns whether a condition of an `Applies:` line is met; `None` if the text is not a condition.
     ///
     /// `1017h`, `1018h:02`, `1017h rw`, `lss`, `tpdo`, `rpdo`, `cia401`, `cia402`, `cia406`.

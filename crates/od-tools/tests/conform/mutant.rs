@@ -2,7 +2,7 @@
 //!
 //! A rule is `[in STATE] [since <PATTERN>] [until <PATTERN>] from PATTERN: [once|after N] DEED`,
 //! the same with `to`, or `[in STATE] [since …] [until …] every MILLIS FRAME`. In a pattern `.` is
-//! any digit and `*` any further text. A frame of either side that matches `since` or `until`
+//! any digit, `+` any but 0, and `*` any further text. A frame of either side that matches `since` or `until`
 //! begins or ends the time of the rule.
 
 use std::collections::VecDeque;
@@ -179,7 +179,7 @@ fn fits(pattern: &str, frame: &Frame) -> bool {
     long && pattern
         .bytes()
         .zip(text.bytes())
-        .all(|(p, c)| p == b'.' || p == c)
+        .all(|(p, c)| p == b'.' || p == c || (p == b'+' && c != b'0'))
 }
 
 fn with(frame: &Frame, change: impl FnOnce(&mut Vec<u8>)) -> Frame {

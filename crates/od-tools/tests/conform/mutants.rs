@@ -34,6 +34,7 @@ fn text(name: &str) -> String {
     match name {
         "ds301" => include_str!("../../../../firmware/eds/ds301.eds")
             .replace("LSS_Supported=0", "LSS_Supported=1"),
+        "no-lss" => include_str!("../../../../firmware/eds/ds301.eds").into(),
         "dummies" => text("ds301").replace("Dummy0005=0", "Dummy0005=1"),
         "limited" => changed(&text("ds301"), "1017 DataType=0x0006\nHighLimit=5000"),
         "extended" => text("ds301") + EXTENSION,
@@ -112,6 +113,8 @@ impl Bench {
         let mut bus = Bus::new();
         let number = bus.add(self.device());
         bus.start(number);
+        // A position of 0 would be 0 in any scale.
+        bus.with(number, |device, now| device.turn(0.3, now));
         if self.name == "io" {
             for (output, input) in [
                 ("out3", "in2"),

@@ -194,7 +194,9 @@ fn the_verdicts_equal_those_of_the_original() {
         let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
         let cases = built_in()
             .iter()
-            .filter(|case| ["EDS", "SDO", "objects", "TIME"].contains(&case.group.as_str()));
+            .filter(|case| ["EDS", "SDO", "objects", "TIME"].contains(&case.group.as_str()))
+            // The original has LSS in Stopped, where a recorder does not put a node.
+            .filter(|case| case.id != "eds-lss");
         cases
             .map(|case| session.run(case))
             .map(|Record { id, verdict, .. }| format!("{id}: {}", verdict.word()))

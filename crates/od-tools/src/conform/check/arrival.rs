@@ -1,13 +1,14 @@
-//! CiA 402: when an axis has arrived: the time in a window, and the home position.
+//! CiA 402: when an axis has arrived (the time in a window, the home position), and when it stops on its way.
 
 use od_model::Address;
 use od_wire::Instant;
 
 use super::motion::{
-    Axis, CHANGE, ENABLE, HOMING, MOVE, PROFILE_POSITION, PROFILE_VELOCITY, REACHED, START, each,
+    Axis, CHANGE, DECELERATION, ENABLE, HALT, HOMING, MOVE, PROFILE_POSITION, PROFILE_VELOCITY,
+    REACHED, READY, START, SWITCHED_ON, each,
 };
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, ensure, lacks};
+use crate::conform::end::{Checked, at_least_one, ensure, lacks};
 
 /// Time in a window until bit 10 is 1, in milliseconds.
 const IN_WINDOW: i64 = 500;
@@ -171,6 +172,78 @@ pub(super) fn homing_speed(dut: &mut Dut<'_>) -> Checked {
                 axis.at(0x606C)
             ),
             format!("{} was read", wrong.unwrap_or(0)),
+        )
+    })
+}
+
+/// With option code 0 the drive function ends at once: the state changes while the axis would still slow down.
+pub(super) fn stop_at_once(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        if !dut.eds.writes(0x6084 + axis.0, 0) {
+            return lacks("6084h, the ramp of a slow stop, cannot be written");
+        }
+        let pace = axis.pace(dut)?;
+        // A ramp of 200 ms and more.
+        let slow = axis.slow(dut, DECELERATION)?;
+        let mut is_tested = false;
+        for (index, word, (name, mask, bits)) in [(0x605C, 7, SWITCHED_ON), (0x605B, 6, READY)] {
+            if !dut.eds.writes(index + axis.0, 0) || axis.choose(dut, index, 0).is_err() {
+                continue;
+            }
+            is_tested = true;
+            axis.runs_again(dut, pace)?;
+            axis.set(dut, 0x6084, slow)?;
+            axis.command(dut, word)?;
+            dut.wait(AT_ONCE)?;
+            let is = axis.value(dut, 0x6041)? as u64;
+            let done = ensure(
+                is & mask == bits,
+                format!(
+                    "{name} in {} within {} ms, with 0 in {}",
+                    axis.at(0x6041),
+                    AT_ONCE / 1000,
+                    axis.at(index)
+                ),
+                format!("{:04X}h was read", is & 0xFFFF),
+            );
+            dut.fault(done)?;
+        }
+        at_least_one(is_tested, "605Bh and 605Ch cannot be 0")
+    })
+}
+
+/// Time in which a state changes without a ramp, in microseconds.
+const AT_ONCE: u64 = 100_000;
+
+/// Halt stops an axis on its way to a target position, too.
+pub(super) fn halt_position(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        if !axis.has(dut, 0x606C) || !dut.eds.writes(0x6081 + axis.0, 0) {
+            return lacks("the drive does not have 606Ch and 6081h rw");
+        }
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        let pace = axis.pace(dut)?;
+        axis.set(dut, 0x6081, pace)?;
+        // Five seconds and more.
+        let target = from + way.max(5 * pace);
+        axis.set_point(dut, target, 0)?;
+        let near = axis.window(dut, 0x606D)?.max(pace / 10);
+        axis.comes_to(
+            dut,
+            0x606C,
+            pace,
+            near,
+            "on the way, with this value in 6081h",
+        )?;
+        axis.command(dut, ENABLE | HALT)?;
+        let window = axis.standing(dut)?;
+        let when = "after halt, bit 8 of 6040h, on the way to a target position";
+        axis.comes_to(dut, 0x606C, 0, window, when)?;
+        let place = axis.value(dut, 0x6064)?;
+        ensure(
+            (place - target).abs() > axis.window(dut, 0x6067)?,
+            format!("{} before {target} after halt", axis.at(0x6064)),
+            format!("{place} was read"),
         )
     })
 }

@@ -1,11 +1,14 @@
 //! Block transfers, which a server does not have to support.
 
 use od_model::{Address, values};
-use od_wire::AbortCode::{self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence};
+use od_wire::AbortCode::{
+    self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence, NoObject, ReadOnly,
+    UnsupportedAccess,
+};
 use od_wire::Frame;
 
 use super::segments::{long_value, short_value};
-use crate::conform::dut::{ANSWER, Dut, is_data};
+use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::record::Traced;
 use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request, reserved_are_0};
@@ -383,4 +386,47 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     };
     let command = dut.frames[end].frame.bytes()[0];
     reserved_are_0(dut, end, &[(command, 3)])
+}
+
+/// An abort of the client ends a block upload.
+pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    begin(dut, address, PLAIN)?;
+    dut.send(Frame::full(
+        dut.node.plus(0x600),
+        request(0x80, address, [0, 0, 0, 8]),
+    ))?;
+    let id = dut.id(0x580);
+    dut.silent(id, QUIET, "no response to an abort")?;
+    let answer = dut.answer([0xA3, 0, 0, 0, 0, 0, 0, 0])?;
+    ensure(
+        abort_of(&answer).is_some(),
+        "an abort: the block upload is over",
+        format!("{} came", values::hex(&answer)),
+    )?;
+    let again = dut.read(address)?;
+    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+}
+
+/// Block transfers are refused as other transfers: of an object that is missing, and a download to one that is read only.
+pub(super) fn refused_objects(dut: &mut Dut<'_>) -> Checked {
+    let (address, _) = long_value(dut)?;
+    read(dut, address, PLAIN)?;
+    if let Some(index) = dut.eds.missing() {
+        let missing = Address::new(index, 0);
+        let answer = dut.answer(request(0xA0, missing, [127, 0, 0, 0]))?;
+        is_abort(&answer, &[NoObject])?;
+    }
+    let device_type = Address::new(0x1000, 0);
+    let mut answer = dut.answer(request(0xC2, device_type, 4u32.to_le_bytes()))?;
+    if answer[0] & 0xFB == 0xA0 {
+        // A server may refuse the value at the end.
+        answer = dut.answer([0x81, 0, 0, 0, 0, 0, 0, 0])?;
+        if answer[0] == 0xA2 {
+            answer = dut.answer([0xC1 | 3 << 2, 0, 0, 0, 0, 0, 0, 0])?;
+        }
+    } else if abort_of(&answer) == Some(InvalidCommand.code()) {
+        return Ok(());
+    }
+    is_abort(&answer, &[UnsupportedAccess, ReadOnly])
 }

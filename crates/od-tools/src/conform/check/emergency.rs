@@ -6,7 +6,7 @@ use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
 use super::heartbeat::{beat, emcy, watch};
-use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::dut::{Dut, FREE, QUIET, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, is_abort, request};
 
@@ -122,7 +122,7 @@ pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
 
 /// EMCY messages have the CAN-ID of 1014h.
 pub(super) fn cob_id_used(dut: &mut Dut<'_>) -> Checked {
-    const OTHER: u32 = 0x4F3;
+    const OTHER: u32 = FREE as u32 + 3;
     let address = Address::new(0x1014, 0);
     let raw = dut.number(0x1014, 0)? as u32;
     dut.keep(address)?;
@@ -147,10 +147,10 @@ pub(super) fn cob_id_used(dut: &mut Dut<'_>) -> Checked {
     match heard {
         Some(heard) => ensure(
             heard.frame.id() == ids[0],
-            "the EMCY with the CAN-ID 4F3h of 1014h",
+            "the EMCY with the CAN-ID 6A3h of 1014h",
             format!("{} came", heard.frame),
         ),
-        None => fail("the EMCY with the CAN-ID 4F3h of 1014h", "none came"),
+        None => fail("the EMCY with the CAN-ID 6A3h of 1014h", "none came"),
     }
 }
 
@@ -297,14 +297,22 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
             abort_text(code)
         ));
     }
-    provoke(dut)?;
+    let node = provoke(dut)?;
     let id = CobId::new(raw).can_id();
-    match dut.next(500_000, |frame| frame.id() == id)? {
-        Some(heard) => fail(
+    if let Some(heard) = dut.next(500_000, |frame| frame.id() == id)? {
+        return fail(
             "no EMCY while bit 31 of 1014h is set",
             format!("{} came", heard.frame),
-        ),
-        None => Ok(()),
+        );
+    }
+    // The heartbeat ends the error, and is missing again when the node may report it.
+    beat(dut, node)?;
+    dut.write(address, &raw.to_le_bytes())?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    match emcy(dut, 0x8130, 1_000_000)? {
+        Some(_) => Ok(()),
+        None => fail("EMCY 8130h again without bit 31 of 1014h", "none came"),
     }
 }
 

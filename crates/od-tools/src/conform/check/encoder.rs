@@ -2,9 +2,11 @@
 
 use od_model::{Address, values};
 use od_wire::AbortCode::{ValueRange, ValueTooHigh};
+use od_wire::nmt::Command;
 
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, ensure, lacks};
+use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::sdo::abort_text;
 
 const PRESET: Address = Address::new(0x6003, 0);
 
@@ -95,6 +97,7 @@ pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
     let offset_before = offset.map(|index| dut.number(index, 0)).transpose()?;
     dut.write(PRESET, &value.to_le_bytes())?;
     let is = dut.number(0x6004, 0)?;
+    let shown = dut.number(PRESET.index, 0)?;
     let offset_after = offset.map(|index| dut.number(index, 0)).transpose()?;
     let off = is.abs_diff(value.into());
     let off = off.min(range.wrapping_sub(off));
@@ -105,6 +108,11 @@ pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
         "the position is {before} again; 6003h was {} before",
         values::hex(&old)
     ));
+    ensure(
+        shown == u64::from(value),
+        format!("{value} in 6003h, as written"),
+        format!("{shown} was read"),
+    )?;
     ensure(
         off <= 16,
         format!("6004h = {value}, the preset value"),
@@ -127,6 +135,15 @@ pub(super) fn cyclic_timer(dut: &mut Dut<'_>) -> Checked {
     }
     super::transmit::event_driven(dut, &pdo)?;
     dut.set(Address::new(0x6200, 0), &60u16.to_le_bytes())?;
+    if dut.eds.entry(0x1800, 5).is_some() {
+        let is = dut.number(0x1800, 5)?;
+        // Some devices can delay the timer by a few milliseconds.
+        ensure(
+            is.abs_diff(60) <= 5,
+            "60 ms in 1800h:05, as 6200h is the same timer",
+            format!("{is} was read"),
+        )?;
+    }
     let shown = "every 60 ms, as 6200h says, 10 % off at most";
     let is_right = |gap: u64, slack: u64| gap.abs_diff(60_000) <= 6_000 + slack;
     super::transmit::gaps(dut, &pdo, 4, is_right, shown)
@@ -145,4 +162,90 @@ pub(super) fn code_sequence(dut: &mut Dut<'_>) -> Checked {
         format!("bit 0 of 6500h = {}", other[0] & 1),
         format!("{is:04X}h was read"),
     )
+}
+
+const STEPS: Address = Address::new(0x6001, 0);
+const RANGE: Address = Address::new(0x6002, 0);
+
+/// Position noise and movement of a shaft that stands, in steps.
+const NOISE: u64 = 16;
+
+/// Sets bit 2 of 6000h, which turns the scaling on.
+fn scaling(dut: &mut Dut<'_>, on: bool) -> Checked {
+    let address = Address::new(0x6000, 0);
+    let mut bytes = dut.read(address)?;
+    if let Some(first) = bytes.first_mut() {
+        *first = *first & !4 | u8::from(on) << 2;
+    }
+    dut.write(address, &bytes)
+}
+
+/// Runs a test that changes the scaling and the offset, and resets the node, which then has its parameters again. A
+/// device that saved the offset gets its position back by the preset value.
+fn scaled(dut: &mut Dut<'_>, test: fn(&mut Dut<'_>) -> Checked) -> Checked {
+    let before = dut.number(0x6004, 0)?;
+    let done = scaling(dut, true).and_then(|()| test(dut));
+    if matches!(done, Err(End::Lost(_))) {
+        return done;
+    }
+    dut.reset(Command::ResetNode)?;
+    let after = dut.number(0x6004, 0)?;
+    if after.abs_diff(before) > NOISE && dut.eds.writes(PRESET.index, 0) {
+        dut.write(PRESET, &(before as u32).to_le_bytes())?;
+        dut.notes
+            .push(format!("the position is {before} again, by 6003h"));
+    }
+    done
+}
+
+/// With half the steps of a revolution the position is another one, and without scaling again.
+pub(super) fn resolution(dut: &mut Dut<'_>) -> Checked {
+    scaled(dut, |dut| {
+        let steps = dut.number(STEPS.index, 0)? as u32;
+        // Devices may clear the offset with a write.
+        dut.write(STEPS, &steps.to_le_bytes())?;
+        let before = dut.number(0x6004, 0)?;
+        let half = steps / 2;
+        if half == 0 || before % u64::from(steps) < 4 * NOISE {
+            return lacks("the shaft is too near to 0 to show a change of 6001h; turn it");
+        }
+        if let Err(code) = dut.download(STEPS, &half.to_le_bytes())? {
+            return lacks(format!("{half} in 6001h: {}", abort_text(code)));
+        }
+        let is = dut.number(0x6004, 0)?;
+        ensure(
+            is.abs_diff(before) > NOISE,
+            format!("another position than {before}, as 6001h is half of {steps} now"),
+            format!("{is} was read"),
+        )?;
+        scaling(dut, false)?;
+        let raw = dut.number(0x6004, 0)?;
+        ensure(
+            raw.abs_diff(is) > NOISE,
+            format!("another position than {is}, as bit 2 of 6000h turns the scaling off"),
+            format!("{raw} was read"),
+        )
+    })
+}
+
+/// A position in the upper half is below a range of half the steps.
+pub(super) fn range(dut: &mut Dut<'_>) -> Checked {
+    scaled(dut, |dut| {
+        let range = dut.number(RANGE.index, 0)? as u32;
+        let half = range / 2;
+        let high = range.saturating_sub(range / 8);
+        if half < 64 || dut.download(PRESET, &high.to_le_bytes())?.is_err() {
+            return lacks("the position cannot be set to the upper half of 6002h");
+        }
+        let before = dut.number(0x6004, 0)?;
+        if let Err(code) = dut.download(RANGE, &half.to_le_bytes())? {
+            return lacks(format!("{half} in 6002h: {}", abort_text(code)));
+        }
+        let is = dut.number(0x6004, 0)?;
+        ensure(
+            is < u64::from(half),
+            format!("a position below {half}, the value of 6002h, after {before}"),
+            format!("{is} was read"),
+        )
+    })
 }

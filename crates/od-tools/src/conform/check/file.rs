@@ -3,7 +3,7 @@
 use od_model::{Address, values};
 
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, at_least_one, ensure, fail};
+use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::number;
 
 pub(super) fn no_errors(dut: &mut Dut<'_>) -> Checked {
@@ -103,4 +103,26 @@ pub(super) fn pdo_count(dut: &mut Dut<'_>) -> Checked {
         }
     }
     Ok(())
+}
+
+/// Granularity 0 means that no mapping can be changed.
+pub(super) fn granularity(dut: &mut Dut<'_>) -> Checked {
+    let mut entries = dut.eds.dictionary().entries();
+    let is_mapping = |index| matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+    let variable = entries.find(|entry| {
+        is_mapping(entry.address.index) && entry.address.sub > 0 && entry.access.writable()
+    });
+    let Some(granularity) = dut.eds.info("Granularity") else {
+        return lacks("[DeviceInfo] has no Granularity");
+    };
+    match variable.filter(|_| granularity == 0) {
+        Some(entry) => fail(
+            format!(
+                "Granularity of 1 to 64, as {} can be written",
+                entry.address
+            ),
+            "it is 0, which means that no mapping can be changed",
+        ),
+        None => Ok(()),
+    }
 }

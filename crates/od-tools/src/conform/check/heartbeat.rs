@@ -11,12 +11,14 @@ const PRODUCER: Address = Address::new(0x1017, 0);
 const CONSUMER: Address = Address::new(0x1016, 1);
 
 pub(super) fn period(dut: &mut Dut<'_>) -> Checked {
-    every(dut, 100, 10)
+    every(dut, 100, 30)
 }
 
 pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     every(dut, 100, 2)?;
-    every(dut, 250, 4)
+    every(dut, 250, 4)?;
+    // A time that needs both bytes.
+    every(dut, 1000, 2)
 }
 
 /// Checks that heartbeats arrive at this period, within 10 %.
@@ -63,7 +65,12 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     }
     dut.write(PRODUCER, &[0, 0])?;
     dut.drain()?;
-    dut.silent(id, 300_000, "no heartbeat with 1017h = 0")
+    dut.silent(id, 300_000, "no heartbeat with 1017h = 0")?;
+    dut.write(PRODUCER, &[50, 0])?;
+    match dut.next_of(id, 200_000)? {
+        Some(_) => Ok(()),
+        None => fail("a heartbeat every 50 ms again after 1017h = 0", "none came"),
+    }
 }
 
 pub(super) fn states(dut: &mut Dut<'_>) -> Checked {
@@ -154,6 +161,8 @@ pub(super) fn consumer_in_time(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 200)?;
+    // Also after Stopped.
+    dut.nmt(Command::Stop)?;
     dut.nmt(Command::Start)?;
     reports_silence(dut, node)
 }
@@ -339,14 +348,17 @@ fn without_heartbeat(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn guarding_toggle(dut: &mut Dut<'_>) -> Checked {
     without_heartbeat(dut)?;
     let mut last = guarded(dut)?;
-    for _ in 0..4 {
-        let state = guarded(dut)?;
-        ensure(
-            (state ^ last) & 0x80 != 0,
-            "another toggle bit (bit 7) in each response",
-            format!("{last:02X}h and {state:02X}h came"),
-        )?;
-        last = state;
+    for command in [Command::EnterPreOperational, Command::Start, Command::Stop] {
+        dut.nmt(command)?;
+        for _ in 0..4 {
+            let state = guarded(dut)?;
+            ensure(
+                (state ^ last) & 0x80 != 0,
+                "another toggle bit (bit 7) in each response, in each NMT state",
+                format!("{last:02X}h and {state:02X}h came"),
+            )?;
+            last = state;
+        }
     }
     Ok(())
 }
@@ -514,6 +526,26 @@ pub(super) fn life_guarding_waits(dut: &mut Dut<'_>) -> Checked {
         ),
         None => Ok(()),
     }
+}
+
+/// Without a guard time or a life time factor there is no life guarding.
+pub(super) fn life_guarding_off(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
+    without_heartbeat(dut)?;
+    for (time, factor) in [(100, 0), (0, 2)] {
+        dut.set(Address::new(0x100C, 0), &[time, 0])?;
+        dut.set(Address::new(0x100D, 0), &[factor])?;
+        let from = dut.frames.len();
+        dut.nmt(Command::Start)?;
+        guarded(dut)?;
+        if let Some(frame) = emcy_since(dut, from, 0x8130, 600_000)? {
+            return fail(
+                format!("no EMCY 8130h with {time} in 100Ch and {factor} in 100Dh"),
+                format!("{frame} came"),
+            );
+        }
+    }
+    Ok(())
 }
 
 /// With a heartbeat the node does not respond to guarding.

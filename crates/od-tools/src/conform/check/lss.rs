@@ -270,7 +270,7 @@ pub(super) fn fastscan_configured(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn node_id_range(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
         let mut done = Ok(());
-        for node_id in [0, 128, 254] {
+        for node_id in [0, 128, 129, 200, 254] {
             done = answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 1]);
             if done.is_err() {
                 break;
@@ -302,14 +302,74 @@ pub(super) fn node_id(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
+/// Node ID 255 makes a node one without a node ID; until a reset it keeps the one that it has.
+pub(super) fn node_id_255(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
-        let request = Request::ConfigureBitTiming {
-            table: 0,
-            index: 0x55,
-        };
-        answers(dut, request, &[0x13, 1])
+        let done = answers(dut, Request::ConfigureNodeId { node_id: 255 }, &[0x11, 0]);
+        let node_id = dut.node.raw();
+        let back = answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0]);
+        done.and(back)
     })
+}
+
+/// A mode of switch state global that CiA 305 reserves does not select the node.
+pub(super) fn global_reserved(dut: &mut Dut<'_>) -> Checked {
+    begin(dut)?;
+    for mode in [2, 255] {
+        raw(dut, [4, mode, 0, 0, 0, 0, 0, 0])?;
+        let done = stays_silent(
+            dut,
+            Request::Inquire { part: Part::Vendor }.emit(),
+            &format!("as switch state global with mode {mode} selects no node"),
+        );
+        if done.is_err() {
+            waiting(dut)?;
+            return done;
+        }
+    }
+    Ok(())
+}
+
+/// Activation without a new bit timing: no response, and the node communicates as before when its delays have passed.
+pub(super) fn activate(dut: &mut Dut<'_>) -> Checked {
+    const DELAY: u16 = 50;
+    configured(dut)?;
+    let request = Request::ActivateBitTiming { delay_ms: DELAY };
+    let done = stays_silent(dut, request.emit(), "as activate bit timing has none");
+    dut.wait(4 * u64::from(DELAY) * 1000)?;
+    waiting(dut)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    done?;
+    dut.still_serves()
+}
+
+pub(super) fn undeclared(dut: &mut Dut<'_>) -> Checked {
+    if dut.eds.info("LSS_Supported") != Some(0) {
+        return lacks("the EDS declares LSS, or says nothing about it");
+    }
+    let all = begin(dut)?;
+    let found = select(dut, all)?;
+    waiting(dut)?;
+    ensure(
+        found.is_none(),
+        "LSS_Supported=1 in [DeviceInfo], as the node has LSS",
+        "it is 0",
+    )
+}
+
+pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
+    let done = with(dut, |dut, _| {
+        // CiA 305 reserves the tables 1 to 127.
+        for (table, index) in [(0, 0x55), (1, 0), (127, 0)] {
+            let request = Request::ConfigureBitTiming { table, index };
+            answers(dut, request, &[0x13, 1])?;
+        }
+        Ok(())
+    });
+    if matches!(done, Err(End::Fail { .. })) && dut.may_reset {
+        dut.reset(Command::ResetNode)?;
+    }
+    done
 }
 
 /// The bit rates of the table that the EDS does not name are refused; a node that accepts one is reset.

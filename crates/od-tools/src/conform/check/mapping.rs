@@ -11,7 +11,7 @@ use od_wire::nmt::Command;
 use super::transmit::{Tpdo, contradiction, first, is_on, mapping, timed};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
-use crate::conform::sdo::{is_abort, request};
+use crate::conform::sdo::{abort_text, is_abort, request};
 
 /// Makes the first TPDO not valid and its mapping empty; [`close`] restores both.
 struct Open {
@@ -461,4 +461,126 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
             _ => Ok(()),
         }
     })
+}
+
+/// An object and its value.
+type Constant = (Entry, Vec<u8>);
+
+/// Objects of 8, 16 or 32 bits that a TPDO may map, with their values; those whose value changes are left out.
+fn constant(dut: &mut Dut<'_>) -> Checked<Vec<Constant>> {
+    const MOST: usize = 40;
+    let fits = |entry: &Entry| {
+        entry.maps_to_tpdo()
+            && entry.access.readable()
+            && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
+    };
+    let entries: Vec<Entry> = dut.eds.dictionary().entries().filter(fits).collect();
+    let mut all = Vec::new();
+    for entry in entries.into_iter().take(MOST) {
+        if let Ok(before) = dut.upload(entry.address)?
+            && dut.upload(entry.address)?.as_ref() == Ok(&before)
+        {
+            all.push((entry, before));
+        }
+    }
+    Ok(all)
+}
+
+/// Two objects follow each other in a TPDO in the order of its mapping.
+pub(super) fn order(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    if !dut.eds.writes(pdo.map(), 2) {
+        return lacks("the mapping has no room for two objects");
+    }
+    let all = constant(dut)?;
+    let bits = |entry: &Entry| raw(entry) & 0xFF;
+    // The other order has other bytes.
+    let differs = |one: &Constant, other: &Constant| {
+        one.0.address != other.0.address
+            && bits(&one.0) + bits(&other.0) <= 64
+            && [&one.1[..], &other.1].concat() != [&other.1[..], &one.1].concat()
+    };
+    let mut pairs = all
+        .iter()
+        .flat_map(|one| all.iter().map(move |other| (one, other)));
+    let Some((one, other)) = pairs.find(|(one, other)| differs(one, other)) else {
+        return lacks("no two objects with different values can be mapped");
+    };
+    let (id, com, cob_id) = (pdo.id(), pdo.address(1), pdo.cob_id);
+    let places = format!("{} and {}", one.0.address, other.0.address);
+    on(dut, pdo, |dut, map| {
+        for (sub, (entry, _)) in (1..).zip([one, other]) {
+            if dut
+                .download(Address::new(map, sub), &raw(entry).to_le_bytes())?
+                .is_err()
+            {
+                return lacks(format!("the node does not map {places} together"));
+            }
+        }
+        dut.write(Address::new(map, 0), &[2])?;
+        dut.write(com, &cob_id.to_le_bytes())?;
+        dut.nmt(Command::Start)?;
+        let is_it = |frame: &od_wire::Frame| frame.id() == id && !frame.is_remote();
+        // The start of the node may cause the first TPDO.
+        dut.next(500_000, is_it)?;
+        let heard = dut.next(500_000, is_it)?;
+        let mut wanted = Vec::new();
+        for (entry, _) in [one, other] {
+            wanted.extend(dut.upload(entry.address)?.unwrap_or_default());
+        }
+        dut.nmt(Command::EnterPreOperational)?;
+        let Some(heard) = heard else {
+            return fail("a TPDO every 50 ms with the new mapping", "none came");
+        };
+        ensure(
+            heard.frame.data() == wanted,
+            format!(
+                "{} in the TPDO, the values of {places}",
+                values::hex(&wanted)
+            ),
+            format!("{} came", heard.frame),
+        )
+    })
+}
+
+/// Greatest number of objects that a case maps one after the other.
+const MANY: usize = 256;
+
+/// The PDO takes each object that it may map according to the EDS, alone.
+pub(super) fn takes_each(dut: &mut Dut<'_>, pdo: Tpdo, may: impl Fn(&Entry) -> bool) -> Checked {
+    let fits =
+        |entry: &Entry| may(entry) && matches!(entry.data_type.bits(), Some(8 | 16 | 32 | 64));
+    let entries: Vec<Entry> = dut
+        .eds
+        .dictionary()
+        .entries()
+        .filter(fits)
+        .take(MANY)
+        .collect();
+    on(dut, pdo, |dut, map| {
+        let count = Address::new(map, 0);
+        for entry in &entries {
+            let place = Address::new(map, 1);
+            let mut done = dut.download(place, &raw(entry).to_le_bytes())?;
+            if done.is_ok() {
+                done = dut.download(count, &[1])?;
+                dut.write(count, &[0])?;
+            }
+            if let Err(code) = done {
+                let expected = format!(
+                    "{:08X}h in {place}, as the EDS lets a PDO carry {}",
+                    raw(entry),
+                    entry.address
+                );
+                dut.fault(fail(expected, format!("{} came", abort_text(code))))?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// A TPDO takes each object that the EDS lets it carry.
+pub(super) fn each_mapped(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut)?;
+    takes_each(dut, pdo, Entry::maps_to_tpdo)
 }

@@ -29,13 +29,13 @@ pub(super) const ENABLE: u16 = 0x0F;
 pub(super) const START: u16 = 1 << 4;
 const AT_ONCE: u16 = 1 << 5;
 const RELATIVE: u16 = 1 << 6;
-const HALT: u16 = 1 << 8;
+pub(super) const HALT: u16 = 1 << 8;
 
 /// A state in the statusword (6041h): its name, the mask of its bits, and their values.
 pub(super) type Shown<'s> = (&'s str, u64, u64);
 const DISABLED: Shown<'_> = ("Switch on disabled", 0x4F, 0x40);
-const READY: Shown<'_> = ("Ready to switch on", 0x6F, 0x21);
-const SWITCHED_ON: Shown<'_> = ("Switched on", 0x6F, 0x23);
+pub(super) const READY: Shown<'_> = ("Ready to switch on", 0x6F, 0x21);
+pub(super) const SWITCHED_ON: Shown<'_> = ("Switched on", 0x6F, 0x23);
 const ENABLED: Shown<'_> = ("Operation enabled", 0x6F, 0x27);
 const QUICK_STOP: Shown<'_> = ("Quick stop active", 0x6F, 0x07);
 const FAULT: Shown<'_> = ("Fault", 0x4F, 0x08);
@@ -144,7 +144,7 @@ impl Axis {
     }
 
     /// Waits until a value is this one, or nearly so.
-    fn comes_to(
+    pub(super) fn comes_to(
         self,
         dut: &mut Dut<'_>,
         index: u16,
@@ -237,7 +237,7 @@ impl Axis {
     }
 
     /// Greatest speed of an axis that is at rest (606Fh).
-    fn standing(self, dut: &mut Dut<'_>) -> Checked<i64> {
+    pub(super) fn standing(self, dut: &mut Dut<'_>) -> Checked<i64> {
         self.window(dut, 0x606F)
     }
 
@@ -624,7 +624,7 @@ pub(super) fn ramp_options(dut: &mut Dut<'_>) -> Checked {
 
 /// A ramp: its object, and the change of the speed on it.
 #[derive(Clone, Copy)]
-struct Ramp {
+pub(super) struct Ramp {
     index: u16,
     /// Whether the axis moves before the ramp, and rests after it.
     is_stop: bool,
@@ -632,7 +632,7 @@ struct Ramp {
     word: Option<u16>,
 }
 
-const DECELERATION: Ramp = Ramp {
+pub(super) const DECELERATION: Ramp = Ramp {
     index: 0x6084,
     is_stop: true,
     word: None,
@@ -688,7 +688,7 @@ impl Axis {
     }
 
     /// Enables the operation again, after a stop or a fault, and moves the axis.
-    fn runs_again(self, dut: &mut Dut<'_>, pace: i64) -> Checked {
+    pub(super) fn runs_again(self, dut: &mut Dut<'_>, pace: i64) -> Checked {
         self.recover(dut)?;
         self.enable(dut)?;
         self.runs(dut, 0)?;
@@ -697,7 +697,7 @@ impl Axis {
 
     /// Finds a value of a ramp with which it lasts longer than with the present one, which returns. The quick stop option
     /// code is 2 then.
-    fn slow(self, dut: &mut Dut<'_>, ramp: Ramp) -> Checked<i64> {
+    pub(super) fn slow(self, dut: &mut Dut<'_>, ramp: Ramp) -> Checked<i64> {
         const LONGER: u64 = 200_000;
         let pace = self.pace(dut)?;
         let present = self.window(dut, ramp.index)?;

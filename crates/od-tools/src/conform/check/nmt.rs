@@ -4,10 +4,11 @@ use od_model::{Address, values};
 use od_wire::nmt::{Command, Repr};
 use od_wire::{CanId, CobId, Frame};
 
-use super::transfer::another_value;
+use super::segments;
+use super::transfer::{Channel, another_value};
 use super::transmit;
 use crate::conform::dut::{Dut, QUIET, is_data};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::request;
 
 const OPERATIONAL: u8 = 5;
@@ -164,9 +165,12 @@ pub(super) fn power_on(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn pre_operational_after_reset(dut: &mut Dut<'_>) -> Checked {
-    dut.reset(Command::ResetNode)?;
-    dut.follow_state()?;
-    dut.is_in(PRE_OPERATIONAL)
+    for reset in [Command::ResetNode, Command::ResetCommunication] {
+        dut.reset(reset)?;
+        dut.follow_state()?;
+        dut.is_in(PRE_OPERATIONAL)?;
+    }
+    Ok(())
 }
 
 pub(super) fn start(dut: &mut Dut<'_>) -> Checked {
@@ -319,13 +323,25 @@ pub(super) fn short_command(dut: &mut Dut<'_>) -> Checked {
     dut.follow_state()?;
     dut.send_to(0, &[1])?;
     dut.send_to(0, &[])?;
+    dut.ask_for(CanId::standard(0), 2)?;
     dut.wait(20_000)?;
     dut.is_in(PRE_OPERATIONAL)
 }
 
 pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {
     dut.nmt(Command::Start)?;
-    dut.still_serves()
+    dut.still_serves()?;
+    // A device may refuse to change the parameters of a PDO in this state.
+    if let Some((address, _)) = another_value(dut)?
+        && address.index < 0x1400
+    {
+        let present = dut.read(address)?;
+        dut.write(address, &present)?;
+    }
+    match segments::long_value(dut) {
+        Err(End::NotApplicable(_)) => Ok(()),
+        found => found.map(drop),
+    }
 }
 
 pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
@@ -340,7 +356,20 @@ pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
         }
         None => None,
     };
+    let mut channels = Vec::new();
+    for index in 0x1201..=0x1208 {
+        channels.extend(Channel::of(dut, index)?);
+    }
     dut.nmt(Command::Stop)?;
+    for channel in channels {
+        let upload = request(0x40, TYPE, [0; 4]);
+        if let Some(frame) = channel.ask(dut, upload, QUIET)? {
+            return fail(
+                "no response of another SDO server in Stopped",
+                format!("{frame} came"),
+            );
+        }
+    }
     for request in requests {
         if let Some(answer) = dut.ask_within(request, QUIET)? {
             return fail(
@@ -384,35 +413,59 @@ pub(super) fn forgets(dut: &mut Dut<'_>, command: Command) -> Checked {
     )
 }
 
-/// A parameter of the application changes with reset node.
-pub(super) fn reset_application(dut: &mut Dut<'_>) -> Checked {
+/// A parameter of the application that was changed, its new value, and the one before.
+fn changed_application(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>, Vec<u8>)> {
     for entry in dut.eds.writable() {
-        let is_application = (0x2000..0xA000).contains(&entry.address.index);
-        let Some((bytes, default)) = is_application
-            .then(|| another_of(dut, &entry))
-            .transpose()?
-            .flatten()
-        else {
+        if !(0x2000..0xA000).contains(&entry.address.index) {
+            continue;
+        }
+        let Some((bytes, before)) = another_of(dut, &entry)? else {
             continue;
         };
-        dut.undo.push((entry.address, default.clone()));
-        match dut.download(entry.address, &bytes)? {
-            Ok(()) => {}
-            Err(_) => continue,
+        dut.undo.push((entry.address, before.clone()));
+        if dut.download(entry.address, &bytes)?.is_ok() {
+            return Ok((entry.address, bytes, before));
         }
-        dut.reset(Command::ResetNode)?;
-        let after = dut.read(entry.address)?;
-        return ensure(
-            after == default,
-            format!(
-                "{} in {}, as before the change",
-                values::hex(&default),
-                entry.address
-            ),
-            format!("{} was read", values::hex(&after)),
-        );
     }
     lacks("no parameter of the application can be changed")
+}
+
+/// A parameter of the application is restored by reset node, to this node and to all.
+pub(super) fn reset_application(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes, before) = changed_application(dut)?;
+    for (node, to) in [(dut.node.raw(), "of this node"), (0, "of all nodes")] {
+        dut.write(address, &bytes)?;
+        dut.drain()?;
+        let from = dut.now();
+        let command = Command::ResetNode;
+        dut.send(Frame::standard(0, &Repr { command, node }.emit()))?;
+        dut.booted(from)?;
+        let after = dut.read(address)?;
+        ensure(
+            after == before,
+            format!(
+                "{} in {address} after reset node {to}, as before the change",
+                values::hex(&before)
+            ),
+            format!("{} was read", values::hex(&after)),
+        )?;
+    }
+    Ok(())
+}
+
+/// Reset communication keeps the parameters of the application.
+pub(super) fn keeps_application(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes, _) = changed_application(dut)?;
+    dut.reset(Command::ResetCommunication)?;
+    let after = dut.read(address)?;
+    ensure(
+        after == bytes,
+        format!(
+            "{} in {address} after reset communication, as written",
+            values::hex(&bytes)
+        ),
+        format!("{} was read", values::hex(&after)),
+    )
 }
 
 /// The value of a number with two limits, and another one between them.

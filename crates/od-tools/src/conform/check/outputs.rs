@@ -231,9 +231,37 @@ pub(super) fn interrupt_mask(dut: &mut Dut<'_>) -> Checked {
                 u8::from(mask)
             );
             expect(sent, enabled == 1 && mask, id, &when)?;
+            if enabled == 1 && mask {
+                shows_inputs(dut, id)?;
+            }
         }
         Ok(())
     })
+}
+
+/// The last TPDO with this CAN-ID has the present values of its objects.
+fn shows_inputs(dut: &mut Dut<'_>, id: u16) -> Checked {
+    let mut sent = dut.frames.iter().rev();
+    let last = sent.find(|one| !one.ours && crate::conform::dut::is_data(&one.frame, id));
+    let Some(last) = last.map(|one| one.frame) else {
+        return Ok(());
+    };
+    for pdo in dut.eds.pdos(0x1800) {
+        let cob_id = CobId::new(dut.number(0x1800 + pdo, 1)? as u32);
+        if cob_id.can_id().as_standard() != Some(id) {
+            continue;
+        }
+        let mut wanted = Vec::new();
+        for mapped in mapping(dut, 0x1A00 + pdo)? {
+            wanted.extend(dut.read(mapped.address)?);
+        }
+        return ensure(
+            last.data() == wanted,
+            format!("{wanted:02X?} in the TPDO {id:03X}, the values of its objects"),
+            format!("{last} came"),
+        );
+    }
+    Ok(())
 }
 
 /// Number of data frames with this CAN-ID since the frame `from`.

@@ -2,13 +2,13 @@
 
 use od_model::{Address, Entry, values};
 use od_wire::nmt::Command;
-use od_wire::{CobId, Frame};
+use od_wire::{CanId, CobId, Frame};
 
 use super::heartbeat::{beat, emcy, sends_emcy, watch};
 use super::mapping::{self, DUMMY, each_refuses, on, raw};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
-use crate::conform::dut::Dut;
+use crate::conform::dut::{Dut, FREE};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks, skip};
 use crate::conform::sdo::abort_text;
 
@@ -137,19 +137,21 @@ pub(super) fn write(dut: &mut Dut<'_>) -> Checked {
 
 /// RPDOs refuse the reserved transmission types.
 pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
-    refuses_types(dut, 0x1400, [241, 253])
+    refuses_types(dut, 0x1400, &[241, 247, 253])
 }
 
 pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
     let pdo = first(dut, 255)?;
     let before = dut.read(pdo.value())?;
-    let (bytes, _) = pdo.other(dut)?;
+    let (bytes, value) = pdo.other(dut)?;
     pdo.send(dut, &bytes)?;
     pdo.holds(dut, &before, ", as the RPDO came in Pre-operational")?;
     dut.nmt(Command::Stop)?;
     pdo.send(dut, &bytes)?;
-    dut.nmt(Command::EnterPreOperational)?;
-    pdo.holds(dut, &before, ", as the RPDO came in Stopped")
+    dut.nmt(Command::Start)?;
+    pdo.holds(dut, &before, ", as the RPDO came in Stopped")?;
+    pdo.send(dut, &bytes)?;
+    pdo.holds(dut, &value, ", as the RPDO came after another start")
 }
 
 pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
@@ -169,6 +171,17 @@ pub(super) fn history_order(dut: &mut Dut<'_>) -> Checked {
     if !dut.eds.has(0x1003) || dut.eds.entry(0x1003, 2).is_none() {
         return lacks("1003h has one entry");
     }
+    // The node reports a missing heartbeat alone.
+    let node = watch(dut, 100)?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    if emcy(dut, 0x8130, 1_000_000)?.is_none() {
+        return lacks("a missing heartbeat causes no EMCY 8130h");
+    }
+    // The heartbeat ends the error, and nothing is monitored until the other error.
+    beat(dut, node)?;
+    dut.write(Address::new(0x1016, 1), &[0; 4])?;
+    dut.wait(50_000)?;
     let count = dut.number(0x1003, 0)?;
     send_short(dut)?;
     if emcy(dut, 0x8210, 200_000)?.is_none() {
@@ -177,14 +190,17 @@ pub(super) fn history_order(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 100)?;
     beat(dut, node)?;
     if emcy(dut, 0x8130, 1_000_000)?.is_none() {
-        return lacks("a missing heartbeat causes no EMCY 8130h");
+        return fail(
+            "EMCY 8130h for a missing heartbeat while the error 8210h is present",
+            "none came",
+        );
     }
     let now = dut.number(0x1003, 0)?;
     let entries = dut.eds.dictionary().entries();
     let own = entries.filter(|one| one.address.index == 0x1003);
     let room = own.map(|one| one.address.sub).max().unwrap_or(0).into();
     ensure(
-        now >= (count + 2).min(room),
+        now == (count + 2).min(room),
         format!("two more entries than {count} in 1003h:00, {room} at most"),
         format!("{now} was read"),
     )?;
@@ -249,9 +265,72 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     dut.set(address, &(pdo.cob_id | 1 << 31).to_le_bytes())?;
     dut.nmt(Command::Start)?;
     let before = dut.read(pdo.value())?;
-    let (bytes, _) = pdo.other(dut)?;
+    let (bytes, value) = pdo.other(dut)?;
     pdo.send(dut, &bytes)?;
-    pdo.holds(dut, &before, ", as the RPDO is off")
+    pdo.holds(dut, &before, ", as the RPDO is off")?;
+    dut.write(address, &pdo.cob_id.to_le_bytes())?;
+    pdo.send(dut, &bytes)?;
+    pdo.holds(dut, &value, ", as the RPDO is on again")
+}
+
+/// An RPDO has the CAN-ID of its COB-ID, and no longer the one from before.
+pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut, 255)?;
+    let address = Address::new(pdo.com, 1);
+    if !dut.eds.writes(pdo.com, 1) {
+        return lacks("the COB-ID cannot be written");
+    }
+    let own = pdo.cob_id;
+    let moved = (own & !0x3FFF_FFFF) | u32::from(FREE + 4);
+    dut.set(address, &(own | 1 << 31).to_le_bytes())?;
+    for value in [moved | 1 << 31, moved] {
+        if dut.download(address, &value.to_le_bytes())?.is_err() {
+            return lacks("the node does not take another COB-ID");
+        }
+    }
+    dut.nmt(Command::Start)?;
+    let before = dut.read(pdo.value())?;
+    let (bytes, value) = pdo.other(dut)?;
+    pdo.send(dut, &bytes)?;
+    pdo.holds(
+        dut,
+        &before,
+        ", as the RPDO came with its CAN-ID from before",
+    )?;
+    let moved_pdo = Rpdo {
+        cob_id: moved,
+        ..pdo
+    };
+    moved_pdo.send(dut, &bytes)?;
+    let done = moved_pdo.holds(dut, &value, ", as the RPDO came with its new CAN-ID 6A4h");
+    // The RPDO is not valid, so that the old COB-ID can be restored.
+    dut.nmt(Command::EnterPreOperational)?;
+    for value in [moved | 1 << 31, own | 1 << 31] {
+        dut.write(address, &value.to_le_bytes())?;
+    }
+    done
+}
+
+/// A frame of 29 bits whose number is the CAN-ID of an RPDO writes nothing.
+pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut, 255)?;
+    let Some(id) = CobId::new(pdo.cob_id).can_id().as_standard() else {
+        return lacks("the RPDO has a CAN-ID of 29 bits");
+    };
+    dut.nmt(Command::Start)?;
+    let before = dut.read(pdo.value())?;
+    let (bytes, _) = pdo.other(dut)?;
+    if let Some(frame) = Frame::new(CanId::extended(id.into()), &bytes) {
+        dut.send(frame)?;
+    }
+    dut.wait(20_000)?;
+    pdo.holds(dut, &before, ", as a frame with a CAN-ID of 29 bits came")
+}
+
+/// An RPDO takes each object that the EDS lets it carry.
+pub(super) fn each_mapped(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    mapping::takes_each(dut, pdo, Entry::maps_to_rpdo)
 }
 
 /// The first valid RPDO, with any mapping.

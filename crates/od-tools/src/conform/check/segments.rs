@@ -2,13 +2,14 @@
 
 use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{
-    InvalidCommand, Length, OutOfMemory, ToggleBit, TooLong, TooShort, UnsupportedAccess,
+    self, InvalidCommand, Length, NoObject, OutOfMemory, ReadOnly, ToggleBit, TooLong, TooShort,
+    UnsupportedAccess,
 };
 use od_wire::Frame;
 use od_wire::nmt::Command;
 
 use crate::conform::dut::{Dut, QUIET};
-use crate::conform::end::{Checked, ensure, lacks, skip};
+use crate::conform::end::{Checked, ensure, fail, lacks, skip};
 use crate::conform::sdo::{abort_of, abort_text, is_abort, request, reserved_are_0};
 
 /// An object with a value of more than four bytes, if possible of more than seven.
@@ -46,7 +47,7 @@ pub(super) fn short_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
 }
 
 /// Begins a segmented upload; returns the size, if the server indicates it.
-fn begin(dut: &mut Dut<'_>, address: Address) -> Checked<Option<usize>> {
+pub(super) fn begin(dut: &mut Dut<'_>, address: Address) -> Checked<Option<usize>> {
     let answer = dut.answer(request(0x40, address, [0; 4]))?;
     let got = format!("{} came", values::hex(&answer));
     ensure(
@@ -309,4 +310,45 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     let segments = if segmented.is_ok() { segments } else { &[] };
     let first = [&[(0x60, 4)], segments].concat();
     reserved_are_0(dut, from, &first)
+}
+
+/// A client that leaves a download open gets the value of its next upload, and the download wrote nothing.
+pub(super) fn download_left_open(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    begin_download(dut, address, before.len())?;
+    let upload = request(0x40, address, [0; 4]);
+    // A server may end the old transfer with an abort first.
+    if abort_of(&dut.answer(upload)?).is_some() {
+        let answer = dut.answer(upload)?;
+        ensure(
+            abort_of(&answer).is_none(),
+            format!(
+                "a value of {address}, since a new request ends the download that was left open"
+            ),
+            format!("{} came", values::hex(&answer)),
+        )?;
+    }
+    unchanged(dut, address, &before)
+}
+
+/// A download by segments is refused as an expedited one: of an object that is read only, and of one that is missing.
+pub(super) fn download_refused(dut: &mut Dut<'_>) -> Checked {
+    let device_type = Address::new(0x1000, 0);
+    let before = dut.read(device_type)?;
+    refuses(dut, device_type, &before, &[UnsupportedAccess, ReadOnly])?;
+    match dut.eds.missing() {
+        Some(index) => refuses(dut, Address::new(index, 0), &[0; 4], &[NoObject]),
+        None => Ok(()),
+    }
+}
+
+fn refuses(dut: &mut Dut<'_>, address: Address, bytes: &[u8], codes: &[AbortCode]) -> Checked {
+    match dut.download_segments(address, bytes, true, 4)? {
+        Ok(()) => fail(
+            format!("an abort for a download by segments to {address}"),
+            "it was accepted",
+        ),
+        Err(code) => is_abort(&request(0x80, address, code.to_le_bytes()), codes)
+            .or_else(|fault| need_not(dut, code).and(Err(fault))),
+    }
 }

@@ -2,10 +2,10 @@
 
 use od_model::Address;
 use od_wire::nmt::Command;
-use od_wire::{CobId, Frame};
+use od_wire::{CanId, CobId, Frame};
 
 use super::transmit::{learn_sync, sync, typed};
-use crate::conform::dut::{Dut, QUIET};
+use crate::conform::dut::{Dut, FREE, QUIET};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::link::Heard;
 
@@ -25,7 +25,7 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, 1)?;
     let old = dut.sync_id;
-    let other = (old & !0x7FF) | 0x4F2;
+    let other = (old & !0x7FF) | u32::from(FREE + 2);
     dut.keep(COB_ID)?;
     if dut.download(COB_ID, &other.to_le_bytes())?.is_err() {
         return lacks("the node does not accept another CAN-ID");
@@ -41,7 +41,7 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     sync(dut)?;
     let came = dut.next(QUIET, |frame| frame.id() == id)?;
     dut.sync_id = old;
-    ensure(came.is_some(), "a TPDO with the new SYNC 4F2h", "none came")
+    ensure(came.is_some(), "a TPDO with the new SYNC 6A2h", "none came")
 }
 
 /// A remote frame with the CAN-ID of SYNC is not a SYNC message.
@@ -55,6 +55,28 @@ pub(super) fn remote(dut: &mut Dut<'_>) -> Checked {
     match dut.next(QUIET, |frame| frame.id() == id)? {
         Some(heard) => fail(
             "no TPDO after a remote frame with the CAN-ID of SYNC",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
+/// A frame of 29 bits whose number is the CAN-ID of SYNC is not a SYNC message.
+pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 1)?;
+    let Some(id) = CobId::new(dut.sync_id).can_id().as_standard() else {
+        return lacks("SYNC has a CAN-ID of 29 bits");
+    };
+    dut.nmt(Command::Start)?;
+    dut.drain()?;
+    if let Some(frame) = Frame::new(CanId::extended(id.into()), &[]) {
+        dut.send(frame)?;
+    }
+    let id = pdo.id();
+    match dut.next(QUIET, |frame| frame.id() == id)? {
+        Some(heard) => fail(
+            "no TPDO after a frame with a CAN-ID of 29 bits",
             format!("{} came", heard.frame),
         ),
         None => Ok(()),
@@ -97,7 +119,7 @@ pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn cob_id_fixed(dut: &mut Dut<'_>) -> Checked {
     let raw = produce(dut)?;
     let on = raw | 1 << 30;
-    let other = (on & !0x7FF) | 0x4F2;
+    let other = (on & !0x7FF) | u32::from(FREE + 2);
     let done = dut.cannot_change(
         COB_ID,
         &other.to_le_bytes(),
@@ -242,7 +264,7 @@ pub(super) fn producer_cob_id(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.number(0x1005, 0)? as u32;
     dut.keep(COB_ID)?;
     dut.set(Address::new(0x1006, 0), &50_000u32.to_le_bytes())?;
-    let other = (raw & !(1 << 30 | 0x7FF)) | 0x4F2;
+    let other = (raw & !(1 << 30 | 0x7FF)) | u32::from(FREE + 2);
     for value in [other, other | 1 << 30] {
         if dut.download(COB_ID, &value.to_le_bytes())?.is_err() {
             return lacks("the node does not produce SYNC with another CAN-ID");
@@ -256,7 +278,7 @@ pub(super) fn producer_cob_id(dut: &mut Dut<'_>) -> Checked {
     match heard {
         Some(heard) => ensure(
             heard.frame.id() == ids[0],
-            "SYNC with the CAN-ID 4F2h of 1005h",
+            "SYNC with the CAN-ID 6A2h of 1005h",
             format!("{} came", heard.frame),
         ),
         None => fail("a SYNC message every 50 ms", "none came for 200 ms"),
@@ -285,6 +307,34 @@ pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
             format!("{} came", heard.frame),
         ),
         None => Ok(()),
+    }
+}
+
+/// A node that cannot produce SYNC refuses bit 30 of 1005h.
+pub(super) fn no_producer(dut: &mut Dut<'_>) -> Checked {
+    use od_wire::AbortCode::ValueRange;
+    if dut.eds.has(0x1006) {
+        return lacks("the EDS has 1006h, the period of a producer");
+    }
+    let raw = dut.number(0x1005, 0)? as u32;
+    dut.keep(COB_ID)?;
+    dut.refuses_value(COB_ID, &(raw | 1 << 30).to_le_bytes(), &[ValueRange])
+}
+
+/// A producer sends SYNC in Pre-operational, too.
+pub(super) fn producer_pre_operational(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.drain()?;
+    let id = CobId::new(raw).can_id();
+    let heard = dut.next(200_000, |frame| frame.id() == id)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    match heard {
+        Some(_) => Ok(()),
+        None => fail(
+            "a SYNC message every 50 ms in Pre-operational",
+            "none came for 200 ms",
+        ),
     }
 }
 
@@ -409,7 +459,7 @@ pub(super) fn time_cob_id(dut: &mut Dut<'_>) -> Checked {
 /// The node continues to work after valid and invalid TIME messages.
 pub(super) fn time(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.number(0x1012, 0)? as u16 & 0x7FF;
-    for data in [&[0, 0, 0, 0, 0x20, 0x40][..], &[], &[1, 2, 3]] {
+    for data in [&[0, 0, 0, 0, 0x20, 0x40][..], &[], &[1, 2, 3], &[0xFF; 8]] {
         dut.send_to(raw, data)?;
         dut.wait(20_000)?;
     }

@@ -9,7 +9,7 @@ use super::transmit::{
     Mapped, Tpdo, contradiction, event_driven, first, gaps, is_on, learn_sync, mapping, next, none,
     sync, timed, typed,
 };
-use crate::conform::dut::{Dut, QUIET};
+use crate::conform::dut::{Dut, FREE, QUIET};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::number;
 
@@ -60,20 +60,28 @@ pub(super) fn mapped_objects(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn event_timer(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 100)?;
-    gaps(
-        dut,
-        &pdo,
-        5,
-        |gap, slack| gap.abs_diff(100_000) <= 10_000 + slack,
-        "every 100 ms",
-    )
+    for kind in [254, 255] {
+        // A node may have one of the two types.
+        if dut.download(pdo.address(2), &[kind])?.is_err() {
+            continue;
+        }
+        gaps(
+            dut,
+            &pdo,
+            5,
+            |gap, slack| gap.abs_diff(100_000) <= 10_000 + slack,
+            &format!("every 100 ms, with transmission type {kind}"),
+        )?;
+        dut.nmt(Command::EnterPreOperational)?;
+    }
+    Ok(())
 }
 
 /// One TPDO with every n-th SYNC, and none without SYNC.
 pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, kind)?;
-    dut.nmt(Command::Start)?;
+    starts_silent(dut, &pdo)?;
     none(dut, &pdo, 200_000, "no TPDO without SYNC")?;
     let mut came = Vec::new();
     for turn in 0..count {
@@ -101,8 +109,70 @@ pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
 pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, 0)?;
+    starts_silent(dut, &pdo)?;
+    none(dut, &pdo, 300_000, "no TPDO without SYNC")?;
+    // A TPDO of this type also wants an event, and a value that does not change is none.
+    let (mut last, mut same) = (None, 0);
+    for _ in 0..SYNCS {
+        sync(dut)?;
+        if let Some(heard) = next(dut, &pdo, 30_000)? {
+            let data = heard.frame.data().to_vec();
+            same += u8::from(last.replace(data.clone()) == Some(data));
+        }
+    }
+    ensure(
+        same < SYNCS - 1,
+        "a TPDO with SYNC only after an event",
+        format!("it came with each of {SYNCS} SYNC messages, with the same bytes"),
+    )
+}
+
+/// Number of SYNC messages for a TPDO that wants an event.
+const SYNCS: u8 = 6;
+
+/// Starts the node; a synchronous TPDO does not come with the start.
+fn starts_silent(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let from = dut.frames.len();
     dut.nmt(Command::Start)?;
-    none(dut, &pdo, 300_000, "no TPDO without SYNC")
+    let mut came = dut.frames.get(from..).unwrap_or_default().iter();
+    match came.find(|traced| !traced.ours && pdo.carries(&traced.frame)) {
+        Some(traced) => fail(
+            "no TPDO without SYNC",
+            format!("{} came with the start of the node", traced.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
+/// With transmission type 252 the node samples with SYNC, and sends only after a remote frame.
+pub(super) fn rtr_synchronous(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 252)?;
+    if !CobId::new(pdo.cob_id).allows_rtr() {
+        return lacks("the COB-ID forbids remote frames (bit 30)");
+    }
+    starts_silent(dut, &pdo)?;
+    for _ in 0..3 {
+        sync(dut)?;
+        none(
+            dut,
+            &pdo,
+            50_000,
+            "no TPDO with SYNC, without a remote frame",
+        )?;
+    }
+    dut.ask_for(pdo.id(), 8)?;
+    // Devices differ in whether they send at once or with the next SYNC.
+    if next(dut, &pdo, QUIET)?.is_none() {
+        sync(dut)?;
+        if next(dut, &pdo, QUIET)?.is_none() {
+            return fail(
+                "the TPDO after its remote frame, with the next SYNC at the latest",
+                "none came",
+            );
+        }
+    }
+    Ok(())
 }
 
 /// With transmission type 253 only a remote frame sends the TPDO, and the event timer does not.
@@ -123,33 +193,27 @@ pub(super) fn rtr_only(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Each TPDO that allows remote frames and has a mapping.
+/// Each valid TPDO that allows remote frames; one without a mapping gets one.
 pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
     first(dut)?;
-    dut.nmt(Command::Start)?;
-    let mut is_tested = false;
-    for pdo in dut.eds.pdos(0x1800) {
-        let com = 0x1800 + pdo;
-        let cob_id = dut.number(com, 1)? as u32;
-        let pdo = Tpdo { com, cob_id };
-        let mapped = mapping(dut, pdo.map())?;
-        let bits: usize = mapped.iter().map(|mapped| mapped.bits).sum();
-        if !is_on(cob_id) || !CobId::new(cob_id).allows_rtr() || bits == 0 {
-            continue;
+    let is_tested = on_each(dut, |dut, pdo, len| {
+        if !CobId::new(pdo.cob_id).allows_rtr() {
+            return lacks("the COB-ID forbids remote frames (bit 30)");
         }
-        is_tested = true;
+        dut.nmt(Command::Start)?;
         dut.drain()?;
-        dut.ask_for(pdo.id(), bits.div_ceil(8) as u8)?;
-        if next(dut, &pdo, QUIET)?.is_none() {
-            let expected = format!("the TPDO {} within 100 ms of its remote frame", pdo.id());
-            dut.fault(fail(expected, "none came"))?;
+        dut.ask_for(pdo.id(), len as u8)?;
+        let heard = next(dut, pdo, QUIET)?;
+        dut.nmt(Command::EnterPreOperational)?;
+        match heard {
+            Some(_) => Ok(()),
+            None => fail(
+                format!("the TPDO {} within 100 ms of its remote frame", pdo.id()),
+                "none came",
+            ),
         }
-    }
-    if is_tested {
-        Ok(())
-    } else {
-        lacks("no COB-ID allows remote frames (bit 30)")
-    }
+    })?;
+    at_least_one(is_tested, "no COB-ID allows remote frames (bit 30)")
 }
 
 /// With bit 30 of its COB-ID a TPDO does not respond to a remote frame.
@@ -231,9 +295,18 @@ pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Every valid TPDO is sent with its CAN-ID and the length of its mapping; a TPDO without a mapping gets one.
+/// Every valid TPDO is sent with its CAN-ID and the length of its mapping.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
+    let any = on_each(dut, is_sent)?;
+    at_least_one(any, "no TPDO is on")
+}
+
+/// A test of a TPDO with its number of bytes.
+type OnTpdo = fn(&mut Dut<'_>, &Tpdo, usize) -> Checked;
+
+/// Tests each valid TPDO; one without a mapping gets one for the test. Returns whether the test applies to any.
+fn on_each(dut: &mut Dut<'_>, test: OnTpdo) -> Checked<bool> {
     let mut any = false;
     for number in dut.eds.pdos(0x1800) {
         let com = 0x1800 + number;
@@ -258,7 +331,7 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
                 super::mapping::raw(entry),
                 entry.data_type.bits().unwrap_or(8),
             );
-            let sent = |dut: &mut Dut<'_>, map| {
+            let mapped = |dut: &mut Dut<'_>, map| {
                 if dut
                     .download(Address::new(map, 1), &raw.to_le_bytes())?
                     .is_err()
@@ -267,12 +340,12 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
                 }
                 dut.write(Address::new(map, 0), &[1])?;
                 dut.write(Address::new(com, 1), &cob_id.to_le_bytes())?;
-                is_sent(dut, &Tpdo { com, cob_id }, usize::from(bits).div_ceil(8))
+                test(dut, &pdo, usize::from(bits).div_ceil(8))
             };
-            super::mapping::on(dut, Tpdo { com, cob_id }, sent)
+            super::mapping::on(dut, pdo, mapped)
         } else {
             let bits: usize = all.iter().map(|mapped| mapped.bits).sum();
-            is_sent(dut, &pdo, bits.div_ceil(8))
+            test(dut, &pdo, bits.div_ceil(8))
         };
         match done {
             Err(End::NotApplicable(_)) => continue,
@@ -280,7 +353,7 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
         }
         any = true;
     }
-    if any { Ok(()) } else { lacks("no TPDO is on") }
+    Ok(any)
 }
 
 /// Bit 31 of its COB-ID makes the TPDO not valid.
@@ -408,7 +481,12 @@ pub(super) fn sync_not_in_stopped(dut: &mut Dut<'_>) -> Checked {
         dut.drain()?;
         quiet(dut, &pdo, state)?;
     }
-    Ok(())
+    starts_silent(dut, &pdo)?;
+    sync(dut)?;
+    match next(dut, &pdo, QUIET)? {
+        Some(_) => Ok(()),
+        None => fail("the TPDO with SYNC again after another start", "none came"),
+    }
 }
 
 /// Fails if the TPDO is sent because of timer, SYNC or remote frame.
@@ -513,7 +591,7 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
     if !dut.eds.writes(pdo.com, 1) {
         return lacks("the COB-ID cannot be written");
     }
-    let other = (pdo.cob_id & !0x3FFF_FFFF) | 0x4F1;
+    let other = (pdo.cob_id & !0x3FFF_FFFF) | u32::from(FREE + 1);
     dut.set(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
     for value in [other | 1 << 31, other] {
         if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
@@ -528,7 +606,7 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
     let came = next(dut, &moved, 500_000)?;
     ensure(
         came.is_some(),
-        "the TPDO with the new CAN-ID 4F1h",
+        "the TPDO with the new CAN-ID 6A1h",
         "none came",
     )?;
     none(dut, &pdo, QUIET, "no TPDO with the old CAN-ID")?;
@@ -540,11 +618,11 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
     first(dut)?;
-    refuses_types(dut, 0x1800, [241, 251])
+    refuses_types(dut, 0x1800, &[241, 245, 251])
 }
 
 /// Every PDO from the communication parameter `base` on refuses these transmission types.
-pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: [u8; 2]) -> Checked {
+pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: &[u8]) -> Checked {
     let mut any = false;
     for number in dut.eds.pdos(base) {
         let com = base + number;
@@ -555,7 +633,7 @@ pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: [u8; 2]) -> Che
         let address = Address::new(com, 2);
         dut.keep(address)?;
         for kind in kinds {
-            let done = dut.refuses_value(address, &[kind], &[ValueRange, ValueTooHigh]);
+            let done = dut.refuses_value(address, &[*kind], &[ValueRange, ValueTooHigh]);
             dut.fault(done)?;
         }
     }

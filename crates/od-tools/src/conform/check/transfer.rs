@@ -7,17 +7,13 @@ use od_wire::AbortCode::{
 };
 use od_wire::{CanId, CobId, Frame};
 
+use super::segments;
 use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
 
 const TYPE: Address = Address::new(0x1000, 0);
-
-/// Indices that few devices have.
-const RARE: [u16; 8] = [
-    0x1004, 0x1024, 0x1FFF, 0x1F7E, 0x5FFF, 0x9FFF, 0x103F, 0x1EFF,
-];
 
 /// Uploads entries of one, two, three and four bytes: the command byte indicates the number, or no
 /// size (42h).
@@ -47,9 +43,21 @@ pub(super) fn upload_sizes(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn one_answer(dut: &mut Dut<'_>) -> Checked {
-    dut.answer(request(0x40, TYPE, [0; 4]))?;
+    let mut requests = vec![
+        request(0x40, TYPE, [0; 4]),
+        request(0x40, Address::new(0x1000, 0x7F), [0; 4]),
+    ];
+    if let Some((address, _)) = another_value(dut)? {
+        let [low, high] = (dut.number(address.index, address.sub)? as u16).to_le_bytes();
+        requests.push(request(0x2B, address, [low, high, 0, 0]));
+    }
     let id = dut.id(0x580);
-    dut.silent(id, QUIET, "one response to a request")
+    for request in requests {
+        dut.answer(request)?;
+        let expected = format!("one response to {}", values::hex(&request));
+        dut.silent(id, QUIET, &expected)?;
+    }
+    Ok(())
 }
 
 pub(super) fn read_write_back(dut: &mut Dut<'_>) -> Checked {
@@ -175,7 +183,7 @@ pub(super) fn write_no_object(dut: &mut Dut<'_>) -> Checked {
 }
 
 fn absent(dut: &mut Dut<'_>, command: u8) -> Checked {
-    let Some(index) = dut.eds.absent(&RARE) else {
+    let Some(index) = dut.eds.missing() else {
         return lacks("the EDS has every object that could be missing");
     };
     dut.refuses(
@@ -202,7 +210,8 @@ pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
     // Another value, so that the abort shows whether it was written.
     bytes[0] ^= 1;
     dut.refuses_value(entry.address, &bytes, &[Length, TooLong])?;
-    unchanged(dut, entry.address, &before)
+    unchanged(dut, entry.address, &before)?;
+    dut.write(entry.address, &before)
 }
 
 /// A refused value does not change the object.
@@ -222,7 +231,8 @@ pub(super) fn too_short(dut: &mut Dut<'_>) -> Checked {
     let before = dut.keep(entry.address)?;
     let bytes = [before.first().copied().unwrap_or(0) ^ 1];
     dut.refuses_value(entry.address, &bytes, &[Length, TooShort])?;
-    unchanged(dut, entry.address, &before)
+    unchanged(dut, entry.address, &before)?;
+    dut.write(entry.address, &before)
 }
 
 fn shorter_than_four(dut: &Dut<'_>, least: usize) -> Option<Entry> {
@@ -302,47 +312,133 @@ pub(super) fn parameters(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn servers(dut: &mut Dut<'_>) -> Checked {
     listed(dut, 0x1201..=0x1208)?;
     for index in 0x1201..=0x1208 {
-        if dut.eds.entry(index, 2).is_some() {
-            let done = serves(dut, index);
-            dut.fault(done)?;
-        }
+        let done = serves(dut, index);
+        dut.fault(done)?;
     }
     Ok(())
 }
 
-fn serves(dut: &mut Dut<'_>, index: u16) -> Checked {
-    // From the server first, as the channel is valid with both.
-    let parts = [Address::new(index, 2), Address::new(index, 1)];
-    let mut ids = Vec::new();
-    for (address, free) in parts.into_iter().zip([0x6D0, 0x6B0]) {
-        let mut cob_id = CobId::new(dut.number(index, address.sub)? as u32);
-        if !cob_id.is_valid() {
-            let own = CobId::new(free + u32::from(index & 0xF));
-            dut.keep(address)?;
-            if !dut.eds.writes(index, address.sub)
-                || dut.download(address, &own.raw().to_le_bytes())?.is_err()
-            {
-                return Ok(());
-            }
-            cob_id = own;
+/// CAN-IDs of an SDO server: of its requests and of its responses.
+#[derive(Clone, Copy)]
+pub(super) struct Channel {
+    ask: CanId,
+    answer: CanId,
+    /// Index of its parameters.
+    index: u16,
+}
+
+impl Channel {
+    /// The channel of a server from 1201h on, which gets CAN-IDs for the case if it is not valid; `None` if it cannot.
+    pub(super) fn of(dut: &mut Dut<'_>, index: u16) -> Checked<Option<Self>> {
+        if dut.eds.entry(index, 2).is_none() {
+            return Ok(None);
         }
-        ids.push(cob_id.can_id());
+        // From the server first, as the channel is valid with both.
+        let parts = [Address::new(index, 2), Address::new(index, 1)];
+        let mut ids = Vec::new();
+        for (address, free) in parts.into_iter().zip([0x6D0, 0x6B0]) {
+            let mut cob_id = CobId::new(dut.number(index, address.sub)? as u32);
+            if !cob_id.is_valid() {
+                let own = CobId::new(free + u32::from(index & 0xF));
+                dut.keep(address)?;
+                if !dut.eds.writes(index, address.sub)
+                    || dut.download(address, &own.raw().to_le_bytes())?.is_err()
+                {
+                    return Ok(None);
+                }
+                cob_id = own;
+            }
+            ids.push(cob_id.can_id());
+        }
+        let [answer, ask] = ids[..] else {
+            return Ok(None);
+        };
+        Ok(Some(Self { ask, answer, index }))
     }
-    let [answer, ask] = ids[..] else {
+
+    /// Sends a request; returns the response, if one comes within the time.
+    pub(super) fn ask(
+        self,
+        dut: &mut Dut<'_>,
+        request: [u8; 8],
+        micros: u64,
+    ) -> Checked<Option<Frame>> {
+        dut.drain()?;
+        dut.send(Frame::full(self.ask, request))?;
+        let heard = dut.awaited(micros, |frame| {
+            frame.id() == self.answer && !frame.is_remote()
+        })?;
+        Ok(heard.map(|heard| heard.frame))
+    }
+
+    /// The response to a request, which must be about its object.
+    fn serves(self, dut: &mut Dut<'_>, request: [u8; 8]) -> Checked<[u8; 8]> {
+        let Self { ask, answer, index } = self;
+        let expected = format!("a response {answer} to {ask}, by the SDO server {index:04X}h");
+        match self.ask(dut, request, ANSWER)? {
+            Some(frame) => {
+                ensure(
+                    frame.dlc() == 8 && frame.bytes()[1..4] == request[1..4],
+                    expected,
+                    format!("{frame} came"),
+                )?;
+                Ok(*frame.bytes())
+            }
+            None => fail(expected, "none came"),
+        }
+    }
+}
+
+/// An upload and a download by this server.
+fn serves(dut: &mut Dut<'_>, index: u16) -> Checked {
+    let Some(channel) = Channel::of(dut, index)? else {
         return Ok(());
     };
-    let request = request(0x40, TYPE, [0; 4]);
-    dut.drain()?;
-    dut.send(Frame::full(ask, request))?;
-    let expected = format!("a response {answer} to {ask}, by the SDO server {index:04X}h");
-    match dut.awaited(ANSWER, |frame| frame.id() == answer && !frame.is_remote())? {
-        Some(heard) => ensure(
-            heard.frame.dlc() == 8 && heard.frame.bytes()[1..4] == request[1..4],
-            expected,
-            format!("{} came", heard.frame),
+    channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
+    let Some((address, value)) = another_value(dut)? else {
+        return Ok(());
+    };
+    dut.keep(address)?;
+    let answer = channel.serves(dut, request(0x2B, address, [value[0], value[1], 0, 0]))?;
+    ensure(
+        answer[0] == 0x60,
+        format!("the confirmation of a download by the SDO server {index:04X}h, 60h"),
+        format!("{} came", values::hex(&answer)),
+    )?;
+    let is = dut.read(address)?;
+    ensure(
+        is == value,
+        format!(
+            "{} in {address}, as written by the SDO server {index:04X}h",
+            values::hex(&value)
         ),
-        None => fail(expected, "none came"),
+        format!("{} was read", values::hex(&is)),
+    )
+}
+
+/// Each SDO server has a transfer of its own.
+pub(super) fn servers_parallel(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = segments::long_value(dut)?;
+    let mut any = false;
+    for index in 0x1201..=0x1208 {
+        let Some(channel) = Channel::of(dut, index)? else {
+            continue;
+        };
+        any = true;
+        segments::begin(dut, address)?;
+        channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
+        let again = dut.segments(None)?;
+        let done = ensure(
+            again == bytes,
+            format!(
+                "{} of {address} by the first SDO server, while {index:04X}h serves, too",
+                values::hex(&bytes)
+            ),
+            format!("{} came", values::hex(&again)),
+        );
+        dut.fault(done)?;
     }
+    at_least_one(any, "the node has one SDO server")
 }
 
 pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
@@ -372,14 +468,35 @@ pub(super) fn listed(dut: &mut Dut<'_>, range: impl Iterator<Item = u16>) -> Che
     Ok(())
 }
 
-/// The node does not respond to a request for another node.
+/// The node does not respond to requests for another node, which do not disturb a transfer of its own either.
 pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.node.raw();
-    let other = u16::from(if raw == 127 { 126 } else { raw + 1 });
-    dut.send_to(0x600 + other, &request(0x40, TYPE, [0; 4]))?;
+    let other = 0x600 + u16::from(if raw == 127 { 126 } else { raw + 1 });
     let id = dut.id(0x580);
-    dut.silent(id, QUIET, "no response to a request to another node")?;
-    dut.still_serves()
+    // No node has node ID 0.
+    for other in [other, 0x600] {
+        dut.send_to(other, &request(0x40, TYPE, [0; 4]))?;
+        dut.silent(id, QUIET, "no response to a request to another node")?;
+    }
+    dut.still_serves()?;
+    let (address, bytes) = match segments::long_value(dut) {
+        Err(End::NotApplicable(_)) => return Ok(()),
+        found => found?,
+    };
+    segments::begin(dut, address)?;
+    for (command, rest) in [(0x40, [0; 4]), (0x60, [0; 4]), (0x80, [0, 0, 0, 8])] {
+        dut.send_to(other, &request(command, TYPE, rest))?;
+    }
+    dut.silent(id, QUIET, "no response to requests to another node")?;
+    let again = dut.segments(None)?;
+    ensure(
+        again == bytes,
+        format!(
+            "{} of {address}, after requests to another node",
+            values::hex(&bytes)
+        ),
+        format!("{} came", values::hex(&again)),
+    )
 }
 
 /// A frame of 29 bits whose number is that of the request is another frame.
