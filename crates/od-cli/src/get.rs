@@ -7,6 +7,7 @@ use od_tools::Error;
 use od_tools::master::Master;
 use od_tools::objects::{self, Asked};
 use od_tools::tap::Tap;
+use od_wire::Duration;
 
 use crate::bus::value::{self, NoValue, Shown};
 use crate::bus::{self, Format};
@@ -19,6 +20,9 @@ use crate::source;
 /// An object is an index (6004h, 1018h:01), a name, or a glob ('60*', '1018:*', '*position*'). The
 /// index of an ARRAY or RECORD selects all its values. Types come from the file of --eds or the
 /// built-in device that matches 1018h, otherwise from the size of the value.
+///
+/// A value that does not end within 60 s is reported as a fault of the node; with --file within a
+/// day. In any case the limit is 1 MiB.
 ///
 /// Exit code 0: all values were read; 1: an SDO abort, a violation of the protocol, or the node is silent.
 #[derive(clap::Args)]
@@ -35,6 +39,12 @@ pub(crate) struct Args {
     #[command(flatten)]
     bus: bus::Args,
 }
+
+/// Time limit of a value that is shown, for a node that sends segments without end.
+const VALUE: Duration = Duration::from_secs(60);
+
+/// Time limit of a value for a file, which may be long.
+const FILE: Duration = Duration::from_secs(86_400);
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let names = args.bus.names()?;
@@ -54,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             bar.transfer(frame);
         }
     });
-    let mut master = Master::new(link, args.node);
+    let mut master = Master::new(link, args.node).within(if is_file { FILE } else { VALUE });
     let dictionary = names.of(&mut master)?.map(|known| known.dictionary);
     if let Some(dictionary) = dictionary {
         master.know(dictionary);

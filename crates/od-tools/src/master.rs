@@ -15,6 +15,9 @@ use crate::link::Link;
 /// is a fault of the device.
 const OPTIONS: Options = Options::DEFAULT;
 
+/// Time limit of an upload, for a value without end. A text of 64 KiB takes 20 s at 125 kbit/s; a DOMAIN has no limit.
+const WHOLE: Duration = Duration::from_secs(60);
+
 /// Number of attempts of a read if a response to another request arrives.
 const TRIES: u8 = 3;
 
@@ -31,7 +34,7 @@ pub struct Master<L> {
     timeout: Duration,
     /// Data types of the node's objects, as far as they are known.
     types: BTreeMap<Address, DataType>,
-    /// Time limit of each whole transfer; `None`: no limit.
+    /// Time limit of each whole transfer; `None`: [`WHOLE`] for uploads, except of a DOMAIN.
     whole: Option<Duration>,
 }
 
@@ -70,7 +73,8 @@ impl<L: Link> Master<L> {
             .collect();
     }
 
-    /// Limits the time of each whole transfer, for a node that sends segments without end.
+    /// Limits the time of each whole transfer, for a node that sends segments without end. By default an upload ends
+    /// after 60 s, unless the value is a DOMAIN.
     #[must_use]
     pub fn within(mut self, whole: Duration) -> Self {
         self.whole = Some(whole);
@@ -95,13 +99,15 @@ impl<L: Link> Master<L> {
         let mut tries = TRIES;
         let standard = || outline::data_type(address.index, address.sub, is_var(address));
         let data_type = self.types.get(&address).copied().or_else(standard);
+        let is_domain = data_type == Some(DataType::Domain);
+        let whole = self.whole.or((!is_domain).then_some(WHOLE));
         loop {
             let job = match data_type {
                 Some(data_type) => self.client.read_as(self.node, address, data_type),
                 None => self.client.read(self.node, address),
             };
             let result = loop {
-                if let Event::Read(_, result) = self.event(job)? {
+                if let Event::Read(_, result) = self.event(job, address, whole)? {
                     break result;
                 }
             };
@@ -133,7 +139,7 @@ impl<L: Link> Master<L> {
     pub fn download(&mut self, address: Address, bytes: &[u8]) -> Result<(), Error> {
         let job = self.client.write(self.node, address, bytes);
         loop {
-            if let Event::Written(_, result) = self.event(job)? {
+            if let Event::Written(_, result) = self.event(job, address, self.whole)? {
                 return self.outcome(address, None, result);
             }
         }
@@ -141,9 +147,14 @@ impl<L: Link> Master<L> {
 
     /// Waits for the client's next event; the client must have a job, which ends with an event. If the program is
     /// interrupted or the time is over, the transfer is aborted.
-    fn event(&mut self, job: Job) -> Result<Event, Error> {
-        let until = self.whole.map(|whole| self.link.now() + whole);
-        let event = self.wait(until);
+    fn event(
+        &mut self,
+        job: Job,
+        address: Address,
+        whole: Option<Duration>,
+    ) -> Result<Event, Error> {
+        let end = whole.map(|whole| (self.link.now() + whole, whole));
+        let event = self.wait(address, end);
         if matches!(event, Err(Error::Interrupted | Error::Protocol(_))) {
             let now = self.link.now();
             self.client.cancel(now, job);
@@ -154,18 +165,19 @@ impl<L: Link> Master<L> {
         event
     }
 
-    fn wait(&mut self, end: Option<Instant>) -> Result<Event, Error> {
+    /// As [`event`](Self::event); `end` is the end of the transfer and its time limit.
+    fn wait(&mut self, address: Address, end: Option<(Instant, Duration)>) -> Result<Event, Error> {
         loop {
             self.send()?;
             if let Some(event) = self.client.poll_event() {
                 return Ok(event);
             }
-            if let Some(whole) = self.whole
-                && end.is_some_and(|end| self.link.now() > end)
+            if let Some((end, whole)) = end
+                && self.link.now() > end
             {
                 let (node, seconds) = (self.node, whole.as_secs_f32());
                 return Err(Error::Protocol(format!(
-                    "node {node} does not finish a transfer within {seconds} s"
+                    "node {node} does not finish the transfer of {address} within {seconds} s"
                 )));
             }
             let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);

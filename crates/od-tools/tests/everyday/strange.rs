@@ -139,6 +139,23 @@ fn a_read_with_a_time_limit_names_it() {
 }
 
 #[test]
+fn a_value_without_end_is_given_up_after_a_minute() {
+    // A text of the standard, and an object without a known type.
+    for index in [0x1008, 0x2000] {
+        let mut slave = Slave::new(endless);
+        let mut master = Master::new(&mut slave, id(5));
+        let Err(Error::Protocol(why)) = master.upload(Address::new(index, 0)) else {
+            panic!("it came to an end");
+        };
+        let place = format!("{index:04X}h");
+        assert!(why.contains(&place) && why.contains("within 60 s"), "{why}");
+        let seconds = slave.now.as_micros() / 1_000_000;
+        assert!((60..62).contains(&seconds), "{seconds}");
+        assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+    }
+}
+
+#[test]
 fn a_number_without_end_is_read_to_a_little_more_than_its_type() {
     let mut slave = Slave::new(endless);
     let mut master = Master::new(&mut slave, id(5));
