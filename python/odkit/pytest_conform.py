@@ -27,7 +27,6 @@ class Node(pytest.Collector):
             self.link = f"{link}@{self.node_id}"
         #: A simulated device allows every case.
         self.may = [simulated is not None or option(f"--odkit-allow-{what}") for what in ("reset", "store", "motion")]
-        self._test = None
         try:
             cases = odkit.conform_cases(option("--odkit-only"))
         except ValueError as error:
@@ -35,16 +34,14 @@ class Node(pytest.Collector):
         for case, group, clause, title in cases:
             yield Case.from_parent(self, name=f"{case}[{clause}]", case=case, title=title)
 
-    @property
-    def test(self):
-        """The test; the link is opened for the first case."""
-        if self._test is None:
-            client = odkit.Client(self.link)
-            reset, store, motion = self.may
-            self._test = odkit.Conform(
-                client, self.node_id, self.eds, allow_reset=reset, allow_store=store, allow_motion=motion
-            )
-        return self._test
+    def setup(self):
+        """Opens the link before the first case; it is closed after the last one."""
+        client = odkit.Client(self.link)
+        self.addfinalizer(client.close)
+        reset, store, motion = self.may
+        self.test = odkit.Conform(
+            client, self.node_id, self.eds, allow_reset=reset, allow_store=store, allow_motion=motion
+        )
 
 
 class Case(pytest.Item):

@@ -1,6 +1,7 @@
 """The plugin of pytest, in a pytest of its own."""
 
 import os
+import socket
 
 import pytest
 
@@ -86,6 +87,17 @@ def test_the_conformance_test_of_a_node(pytester):
     result.stdout.fnmatch_lines(["*nmt-start[[]CiA 301*] PASSED*"])
     result = pytester.runpytest("--odkit-conform", "bench:gxmm", "--odkit-only", "nmt-start", "test_other.py")
     result.assert_outcomes(passed=1, failed=1)
+
+
+def test_the_link_of_a_conformance_test_is_closed(pytester):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        link = f"slcan:127.0.0.1:{server.getsockname()[1]}"
+        pytester.runpytest("--odkit-conform", link, "--odkit-eds", EDS, "--odkit-only", "drive-objects").assert_outcomes(skipped=1)
+        adapter, _ = server.accept()
+        adapter.settimeout(10)
+        # The end of the connection comes after the commands that were sent.
+        while adapter.recv(100):
+            pass
 
 
 def test_a_case_that_fails_says_why(pytester):

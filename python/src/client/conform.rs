@@ -89,8 +89,8 @@ pub(crate) struct Conform {
     node: od_wire::NodeId,
     eds: Eds,
     leave: Leave,
-    /// Reason why the test cannot continue.
-    lost: std::sync::Mutex<Option<String>>,
+    /// Reason why the test cannot continue, and number of cases in a row without a response.
+    past: std::sync::Mutex<(Option<String>, u8)>,
 }
 
 #[pymethods]
@@ -116,7 +116,7 @@ impl Conform {
                 store: allow_store,
                 motion: allow_motion,
             },
-            lost: std::sync::Mutex::default(),
+            past: std::sync::Mutex::default(),
         })
     }
 
@@ -130,13 +130,13 @@ impl Conform {
                 "case `{id}` does not exist; `odkit.conform_cases()` lists all cases"
             ))
         })?;
-        let lost = || {
-            self.lost
+        let past = || {
+            self.past
                 .lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
         };
-        let before = lost().clone();
-        if let Some(why) = before {
+        let (lost, silences) = past().clone();
+        if let Some(why) = lost {
             return Ok(Record {
                 id: case.id.clone(),
                 group: case.group.clone(),
@@ -149,13 +149,17 @@ impl Conform {
                 seconds: 0.0,
             });
         }
-        let (record, why) = self.client.bind(py).get().with(py, |core| {
+        let (record, now) = self.client.bind(py).get().with(py, |core| {
             core.catch_up()?;
             let mut session = Session::new(&mut core.line, &self.eds, self.node, self.leave);
+            session.resume_after(silences);
             let record = session.run(case);
-            Ok((record, session.lost().map(str::to_owned)))
+            Ok((
+                record,
+                (session.lost().map(str::to_owned), session.silences()),
+            ))
         })?;
-        *lost() = why;
+        *past() = now;
         let mut decoder = Decoder::default();
         let frames = record.frames.iter().map(|one| {
             let direction = if one.ours { "->" } else { "<-" };

@@ -111,6 +111,16 @@ impl<'s> Session<'s> {
         &self.times
     }
 
+    /// Number of cases in a row in which the node did not respond at all; another session of the node continues from it.
+    pub fn silences(&self) -> u8 {
+        self.silences
+    }
+
+    /// Continues a test in which the node did not respond at all in the last `silences` cases.
+    pub fn resume_after(&mut self, silences: u8) {
+        self.silences = silences;
+    }
+
     /// Reason why the test ended early; `None` if it did not.
     pub fn lost(&self) -> Option<&str> {
         self.lost.as_deref()
@@ -122,7 +132,8 @@ impl<'s> Session<'s> {
     /// On a real bus a failure may have its cause in a busy computer: the test itself, or a slave on the same computer, was
     /// late. A case that fails while the test was late is repeated, and if it then passes, it is passed. If the test is late
     /// each time, the result is unknown, unless the case depends only on responses and fails in the same way each time.
-    /// A case that depends on time must fail twice to be failed, since the test cannot measure how late the slave was.
+    /// A case that depends on time must fail twice to be failed, since the test cannot measure how late the slave was. If the
+    /// node does not respond afterwards, the first failure counts.
     pub fn run(&mut self, case: &Case) -> Record {
         let (mut record, mut trust) = self.once(case);
         if trust == Trust::Full || !record.verdict.is_fail() {
@@ -140,6 +151,12 @@ impl<'s> Session<'s> {
                 return record;
             }
             let (again, its) = self.once(case);
+            if self.silences > 0 {
+                record
+                    .notes
+                    .push("the node did not respond afterwards".into());
+                return record;
+            }
             trust = its;
             is_same &= again.verdict == record.verdict;
             let micros = record.micros + again.micros;

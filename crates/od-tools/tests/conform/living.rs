@@ -344,6 +344,25 @@ impl Rig for Starved {
 
 /// A slave on the same busy computer is late when the test is not.
 #[test]
+fn on_a_busy_computer_too_a_node_that_never_responds_fails_its_first_case() {
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let mut rig = Busy {
+        bus: OnBench(bus("gxmm")),
+        waiting: VecDeque::new(),
+        random: 1,
+        longest: 20_000,
+        late: Cell::new(0),
+        spoiled: |_| None,
+    };
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+    let case = built_in().iter().find(|case| case.id == "nmt-start");
+    let record = session.run(case.expect("a case"));
+    assert!(record.verdict.is_fail(), "{:?}", record.verdict);
+    assert_eq!(record.notes, ["the node did not respond afterwards"]);
+}
+
+#[test]
 fn a_failure_that_depends_on_time_must_be_seen_twice() {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
