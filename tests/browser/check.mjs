@@ -21,6 +21,7 @@ afterEach(async () => {
 /** A tab without stored data, except for the service worker. */
 async function forget(page) {
   await page.mouse.move(0, 0);
+  await page.evaluate(() => sessionStorage.clear());
   await page.goto('about:blank');
   const client = await page.context().newCDPSession(page);
   await client.send('Storage.clearDataForOrigin', { origin: new URL(URL_OF_PAGE).origin, storageTypes: 'local_storage,indexeddb' });

@@ -1,5 +1,6 @@
 // The editor of EDS files, the report of an opened file, and undoing a replacement.
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { flawless } from './axe.mjs';
 import { becomes, booted, nmt, sdo, sdoNote, state, until } from './bench.mjs';
 import { checks } from './check.mjs';
@@ -124,6 +125,17 @@ check('the editor leaves Tab and Escape alone, keeps what was typed, and axe fin
   await until('what was typed', async () => (await page.locator('.cm-line').allTextContents()).includes('[FileInfo]'));
   await page.getByRole('button', { name: 'Findings' }).click();
   await becomes('the finding', () => findings(page).allTextContents().then(String), /E0412 2801h/);
+});
+
+check('the text of the editor is saved as a file, with its changes', async (page) => {
+  await edit(page);
+  await to(page, '2800h', 'DefaultValue');
+  await page.keyboard.type('7');
+  const changed = await line(page);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save as file' }).click()]);
+  assert.equal(download.suggestedFilename(), 'gxmm.eds');
+  const lines = (await readFile(await download.path(), 'latin1')).split(/\r?\n/);
+  assert.ok(lines.slice(lines.indexOf('[2800]')).includes(changed), changed);
 });
 
 check('20,000 findings: errors first, by rule, all of them in reach, little of them in the page', async (page) => {

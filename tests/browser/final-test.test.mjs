@@ -1,5 +1,6 @@
 // The final test: questions of all lessons without their recipe, a certificate to print, and questions that lessons ask again.
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { flawless } from './axe.mjs';
 import { becomes, until } from './bench.mjs';
 import { checks } from './check.mjs';
@@ -50,6 +51,56 @@ check('the final test fails without answers, passes with ten of twelve, and prin
   await page.emulateMedia({ media: 'print' });
   await until('only the certificate on paper', async () => (await certificate.isVisible()) && !(await page.locator('od-topbar').isVisible()) && !(await page.getByText('Answers that were not right').isVisible()));
   await page.emulateMedia({ media: 'screen' });
+});
+
+check('a reload and another language keep the final test where it is, and the list offers to continue', { hash: '#lesson=nmt' }, async (page) => {
+  await page.locator('od-lesson').getByRole('heading').first().waitFor();
+  await page.getByRole('button', { name: 'Learn' }).click();
+  await page.getByRole('button', { name: 'Begin the final test' }).click();
+  const test = page.locator('od-final-test');
+  for (const number of [1, 2]) {
+    await test.getByRole('heading', { name: `Question ${number} of 12` }).waitFor();
+    await test.getByRole('button', { name: 'I do not know it' }).click();
+  }
+  await test.getByRole('heading', { name: 'Question 3 of 12' }).waitFor();
+  const question = await test.locator('.question').innerText();
+  await page.reload();
+  await test.getByRole('heading', { name: 'Question 3 of 12' }).waitFor();
+  assert.equal(await test.locator('.question').innerText(), question);
+  await page.getByRole('dialog').getByRole('button', { name: 'DE Deutsch' }).click();
+  await test.getByRole('heading', { name: 'Frage 3 von 12' }).waitFor();
+  await becomes('the question in German', async () => (await test.locator('.question').innerText()) !== question, true);
+  await page.getByRole('button', { name: 'Zurück zu den Lektionen' }).click();
+  await page.getByRole('button', { name: 'Abschlussprüfung mit Frage 3 von 12 fortsetzen' }).click();
+  for (let number = 3; number <= 12; number += 1) {
+    await test.getByRole('heading', { name: `Frage ${number} von 12` }).waitFor();
+    await test.getByRole('button', { name: 'Ich weiß es nicht' }).click();
+  }
+  await test.getByText('0 von 12 Antworten sind richtig.').waitFor();
+  // The result stays until another test begins.
+  await page.reload();
+  await test.getByText('0 von 12 Antworten sind richtig.').waitFor();
+  await test.getByRole('button', { name: 'Noch einmal' }).click();
+  await test.getByRole('heading', { name: 'Frage 1 von 12' }).waitFor();
+});
+
+check('the sample lesson and the guides are downloads, and the sample is a lesson', async (page) => {
+  await page.getByRole('button', { name: 'Learn' }).click();
+  const list = page.getByRole('dialog', { name: 'Lessons' });
+  const links = list.locator('a[download]');
+  const names = [];
+  await links.first().waitFor();
+  for (const link of await links.all()) {
+    const [download] = await Promise.all([page.waitForEvent('download'), link.click()]);
+    names.push(download.suggestedFilename());
+    const text = await readFile(await download.path(), 'utf8');
+    if (names.length === 1) await list.getByLabel('Open lessons from files').setInputFiles({ name: 'sample-lesson.md', mimeType: 'text/markdown', buffer: Buffer.from(text) });
+    else assert.match(text, /^# (Lessons|Scripts)$/m);
+    if (names.length > 1) continue;
+    await page.locator('od-lesson').getByRole('heading', { name: 'Boot-up', exact: true }).waitFor();
+    await page.getByRole('button', { name: 'Learn' }).click();
+  }
+  assert.deepEqual(names, ['sample-lesson.md', 'LESSONS.md', 'SCRIPTS.md']);
 });
 
 check('a lesson is printed as a handout, and with its solutions', async (page) => {

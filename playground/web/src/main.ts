@@ -28,8 +28,9 @@ async function open(): Promise<void> {
   }
   const asked = new URLSearchParams(hash.slice(1));
   const fault = asked.get('case');
-  if (fault) {
-    state.faultCase.value = { name: fault, seed: Number(asked.get('seed')) >>> 0 };
+  if (fault || asked.has('test')) {
+    state.finalTest.value = !fault;
+    if (fault) state.faultCase.value = { name: fault, seed: Number(asked.get('seed')) >>> 0 };
     state.lessonDialog.value = true;
     if (state.devices.value.length > 0) return;
   }

@@ -101,6 +101,8 @@ export const lessonOpening = signal(false);
 /** Lessons that could not be opened, and the reasons. */
 export const lessonFailed = signal<{ name: string; problems: Pick<Diagnostic, 'line' | 'message' | 'help'>[] }[]>([]);
 export const lessonDialog = signal(false);
+/** The address asks for the final test. */
+export const finalTest = signal(false);
 /** The fault case in the dialog of the lessons, with an empty name the list of all; null for the lessons. */
 export const faultCase = signal<{ name: string; seed: number } | null>(null);
 /** Wrong answers and opened hints of the step in progress. */

@@ -3,6 +3,7 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import { copyText } from '../clipboard';
 import { load } from '../lessons/open';
+import { keep as keepInTab, kept, type KeptCase } from '../lessons/tab';
 import { german } from '../language';
 import type { CaseMark, FaultCase, OpenedCase, ProbeReading } from '../sim/api';
 import { use } from '../sim/link';
@@ -10,6 +11,7 @@ import { sheet } from '../sheet';
 import * as state from '../state';
 import { icons } from '../views/icons';
 import { markdown } from '../views/markdown';
+import { D } from '../views/texts';
 import { View } from '../views/view';
 import { F } from './texts';
 
@@ -92,10 +94,26 @@ class FaultCases extends View {
       if ('error' in opened) throw new Error(opened.error);
       if (shown !== this.shown) return;
       this.opened = opened.value;
+      const before = kept('case');
+      if (before?.name === wanted.name && before.seed === wanted.seed) await this.restore(before);
       history.replaceState(null, '', `${location.pathname}${location.search}#case=${wanted.name}&seed=${wanted.seed}`);
     } catch {
       this.list = null;
     }
+  }
+
+  /** Makes the probes of before a reload again, or of another language; each reads as it did. */
+  private async restore(before: KeptCase): Promise<void> {
+    const { shown } = this;
+    this.chosen = before.chosen;
+    for (const number of before.probes) if (shown === this.shown) await this.probe(number);
+    if (shown !== this.shown) return;
+    if (before.isMarked) await this.judge();
+  }
+
+  private keep(): void {
+    const wanted = state.faultCase.value;
+    if (wanted) keepInTab('case', { ...wanted, probes: [...this.readings.keys()], chosen: this.chosen, isMarked: this.mark !== null });
   }
 
   private open(name: string, seed = newSeed()): void {
@@ -110,8 +128,10 @@ class FaultCases extends View {
     const told = await use('tryProbe', ...(await texts()), wanted.name, wanted.seed, number);
     if (shown !== this.shown) return;
     this.isBusy = false;
-    if ('value' in told) this.readings = new Map([...this.readings, [number, told.value]]);
-    else this.note = told.error;
+    if ('value' in told) {
+      this.readings = new Map([...this.readings, [number, told.value]]);
+      this.keep();
+    } else this.note = told.error;
   }
 
   private async judge(): Promise<void> {
@@ -140,6 +160,7 @@ class FaultCases extends View {
       return;
     }
     this.mark = mark.value;
+    this.keep();
     if (mark.value.isRight && mark.value.isProven) keep(wanted.name);
     await this.updateComplete;
     this.querySelector('.case-mark')?.scrollIntoView({ block: 'nearest' });
@@ -191,7 +212,7 @@ class FaultCases extends View {
           })}</ol></section>
         <section aria-labelledby="case-causes"><h4 id="case-causes">${F.cause}</h4>
           <fieldset class="choices" ?disabled=${isOver} aria-labelledby="case-causes">${opened.causes.map((text, number) => html`<label class="choice" data-is=${isOver && number === this.mark!.cause ? 'right' : isOver && number === this.chosen ? 'wrong' : ''}>
-            <input type="radio" name="case-cause" .checked=${this.chosen === number} @change=${() => { this.chosen = number; this.note = ''; }}><span>${text}</span></label>`)}</fieldset>
+            <input type="radio" name="case-cause" .checked=${this.chosen === number} @change=${() => { this.chosen = number; this.note = ''; this.keep(); }}><span>${text}</span></label>`)}</fieldset>
           ${isOver ? nothing : html`<div class="button-row"><button class="primary" ?disabled=${this.isBusy} @click=${() => void this.judge()}>${F.name}</button><span role="status" class="note">${this.note}</span></div>`}
           ${this.mark ? this.result(opened, this.mark) : nothing}</section>
       </div>`;
@@ -204,6 +225,7 @@ class FaultCases extends View {
     // The dialog is closed: a lesson or another address was opened.
     if (wanted === null) return html`${nothing}`;
     if (this.opened) return this.case(this.opened, wanted);
+    if (wanted.name || this.list.length === 0) return html`<p class="note" role="status">${D.lessons.loading}</p>`;
     const done = solved();
     return html`<p class="note">${F.hint}</p>
       <ol class="lesson-list">${this.list.map((one) => html`<li><button class="card" @click=${() => this.open(one.name)}><strong>${one.title}${done.includes(one.name)

@@ -3,6 +3,7 @@
 import { effect } from '@preact/signals-core';
 import { clear as clearProgress, finished, progress } from '../lessons/kept';
 import { lessons, openNamed, words } from '../lessons/open';
+import { forget as forgetTab } from '../lessons/tab';
 import { forget as forgetBench } from '../share/keep';
 import * as state from '../state';
 import type { Refused } from './name';
@@ -108,6 +109,7 @@ async function leave(): Promise<void> {
   window.clearTimeout(timer);
   become(null);
   clearProgress();
+  forgetTab();
   await forgetBench().catch(() => undefined);
   location.replace(location.pathname + location.search);
 }

@@ -116,6 +116,8 @@ export const dialogs = {
       title: 'Final test',
       hint: (questions: number, needed: number) => `${questions} questions of all lessons, without the explanation that leads to the answer. ${needed} right answers give a certificate.`,
       begin: 'Begin the final test',
+      last: 'Result of the final test',
+      goOn: (number: number, all: number) => `Continue the final test with question ${number} of ${all}`,
       back: 'Back to the lessons',
       question: (number: number, all: number) => `Question ${number} of ${all}`,
       next: 'Next question',
@@ -135,6 +137,7 @@ export const dialogs = {
       lessons: (done: number) => `${done} lesson${done === 1 ? '' : 's'} done`,
       code: 'A trainer reads this code with odkit lesson progress:',
     },
+    loading: 'Loading…',
     noList: 'The list of lessons could not be loaded. Is there a network?',
   },
   help: {

@@ -3,6 +3,7 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import { codeOf, FINAL, finished, NEEDED, progress, QUESTIONS, reached } from '../lessons/kept';
 import { openNamed, questions, type Asked } from '../lessons/open';
+import { keep, kept } from '../lessons/tab';
 import { language } from '../language';
 import { use } from '../sim/link';
 import { markdown } from './markdown';
@@ -30,6 +31,8 @@ class FinalTest extends View {
   declare note: string;
   /** A name for the certificate; it is not stored. */
   declare learner: string;
+  /** Language of the questions. */
+  private shown = '';
 
   constructor() {
     super();
@@ -37,17 +40,35 @@ class FinalTest extends View {
     this.learner = '';
     this.asked = [];
     this.given = [];
-    this.begin();
+  }
+
+  /** Continues the test of before a reload, or of another language; otherwise begins one. */
+  private resume(): void {
+    this.shown = language();
+    questions().then((all) => {
+      const before = kept('test');
+      const asked = before?.asked.map(([lesson, step]) => all.find((one) => one.lesson === lesson && one.step === step));
+      if (!before || !asked?.every((one) => one !== undefined)) return this.begin();
+      [this.asked, this.given] = [asked, before.given];
+    }, () => (this.asked = null));
   }
 
   private begin(): void {
     this.given = [];
-    questions().then((all) => (this.asked = drawn(all)), () => (this.asked = null));
+    questions().then((all) => {
+      this.asked = drawn(all);
+      this.keep();
+    }, () => (this.asked = null));
+  }
+
+  private keep(): void {
+    keep('test', { asked: (this.asked ?? []).map(({ lesson, step }) => [lesson, step]), given: this.given });
   }
 
   private answered(text: string, isRight: boolean): void {
     this.given = [...this.given, { text, isRight }];
     this.note = '';
+    this.keep();
     const all = this.asked?.length ?? 0;
     if (this.given.length === all) reached(FINAL, this.right, all, false);
     else void this.updateComplete.then(() => this.querySelector('input')?.focus());
@@ -111,14 +132,16 @@ class FinalTest extends View {
 
   protected override render() {
     const t = D.lessons.test;
+    if (this.shown !== language()) this.resume();
     const { asked } = this;
     if (!asked) return html`<p class="note" role="alert">${D.lessons.noList}</p>`;
     const one = asked[this.given.length];
     if (one) return this.ask(one, asked.length);
-    if (asked.length === 0) return nothing;
+    if (asked.length === 0) return html`<p class="note" role="status">${D.lessons.loading}</p>`;
     const isPassed = this.right >= NEEDED;
     return html`<p class="lesson-end" role="status">${t.sum(this.right, asked.length)} ${isPassed ? t.passed : t.failed(NEEDED)}</p>
-      ${isPassed ? this.certificate(asked.length) : html`<div class="button-row"><button class="primary" @click=${() => this.begin()}>${t.again}</button></div>`}
+      ${isPassed ? this.certificate(asked.length) : nothing}
+      <div class="button-row"><button class=${isPassed ? '' : 'primary'} @click=${() => this.begin()}>${t.again}</button></div>
       ${this.right < asked.length ? this.wrong(asked) : nothing}`;
   }
 }

@@ -9,6 +9,7 @@ import { language } from '../language';
 import { F } from '../cases/texts';
 import { codeOf, finished, NEEDED, progress, QUESTIONS, type Done, type Progress } from '../lessons/kept';
 import { lessons, openFile, openNamed, words } from '../lessons/open';
+import { begunTest } from '../lessons/tab';
 import { changes, clear, openAll, type Listed } from '../lessons/own';
 import { sheet } from '../sheet';
 import * as state from '../state';
@@ -19,6 +20,15 @@ import { D } from './texts';
 import { load, View } from './view';
 
 await sheet('dialogs');
+
+/** The address of the final test. */
+const TEST = '#test';
+
+/** Gives the page the address of its lesson, or of no lesson, in place of that of a fault case or of the final test. */
+function leave(): void {
+  const name = state.lesson.value ? state.lessonRun.value.name : '';
+  history.replaceState(null, '', `${location.pathname}${location.search}${name ? `#lesson=${encodeURIComponent(name)}` : ''}`);
+}
 
 class Lessons extends View {
   static override properties = { list: { state: true }, learner: { state: true }, isCopied: { state: true }, isTest: { state: true } };
@@ -46,6 +56,7 @@ class Lessons extends View {
       void changes.value;
       if (state.lessonDialog.value) {
         if (!dialog.open) dialog.showModal();
+        if (state.finalTest.peek()) this.beginTest();
         this.load();
         this.requestUpdate();
       } else if (!state.lessonDialog.value && dialog.open) {
@@ -57,6 +68,15 @@ class Lessons extends View {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.unopen?.();
+  }
+
+  private beginTest(): void {
+    state.finalTest.value = false;
+    load(async () => {
+      await import('./final-test');
+      this.isTest = true;
+      history.replaceState(null, '', `${location.pathname}${location.search}${TEST}`);
+    });
   }
 
   private failed() {
@@ -140,24 +160,26 @@ class Lessons extends View {
     const t = D.lessons;
     const done = finished();
     const known = progress();
+    const begun = begunTest();
     const close = (): void => {
       state.lessonDialog.value = false;
       state.lessonFailed.value = [];
+      if (this.isTest || state.faultCase.value?.name) leave();
       this.isTest = false;
-      if (state.faultCase.value?.name) history.replaceState(null, '', location.pathname + location.search);
       state.faultCase.value = null;
     };
     if (state.faultCase.value) {
-      load(() => import('../cases/view'));
-      return this.framed(close, F.title, html`<od-fault-cases></od-fault-cases><div><button @click=${() => (state.faultCase.value = null)}>${F.back}</button></div>`);
+      const isThere = customElements.get('od-fault-cases') !== undefined;
+      if (!isThere) load(() => import('../cases/view').then(() => this.requestUpdate()));
+      return this.framed(close, F.title, html`${isThere ? html`<od-fault-cases></od-fault-cases>` : html`<p class="note" role="status">${D.lessons.loading}</p>`}<div><button @click=${() => (state.faultCase.value = null)}>${F.back}</button></div>`);
     }
-    if (this.isTest) return this.framed(close, D.lessons.test.title, html`<od-final-test></od-final-test><div><button @click=${() => (this.isTest = false)}>${D.lessons.test.back}</button></div>`);
+    if (this.isTest) return this.framed(close, D.lessons.test.title, html`<od-final-test></od-final-test><div><button @click=${() => { leave(); this.isTest = false; }}>${D.lessons.test.back}</button></div>`);
     return this.framed(close, T.lessons.title, html`${this.failed()}
-        ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
+        ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : this.list.length === 0 ? html`<p class="note" role="status">${t.loading}</p>` : nothing}
         ${this.group('own-lessons', t.own.title, (this.list ?? []).filter((one) => one.isOwn), done, known)}
         ${t.levels.map((level, number) => this.group(`level-${number}`, level, (this.list ?? []).filter((one) => one.level === number && !one.isOwn), done, known))}
         ${state.real.value || state.devices.value.length === 0 ? nothing : cards(close)}
-        <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => void import('./final-test').then(() => (this.isTest = true))}>${t.test.begin}</button></section>
+        <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => this.beginTest()}>${!begun ? t.test.begin : begun.given < begun.all ? t.test.goOn(begun.given + 1, begun.all) : t.test.last}</button></section>
         <section class="share-field"><p class="note">${F.hint}</p><button @click=${() => (state.faultCase.value = { name: '', seed: 0 })}>${F.begin}</button></section>
         ${this.paper()}
         ${this.code()}

@@ -119,6 +119,8 @@ export const dialogs = {
       title: 'Abschlussprüfung',
       hint: (questions, needed) => `${questions} Fragen aus allen Lektionen, ohne die Erklärung, die zur Antwort führt. ${needed} richtige Antworten ergeben ein Zertifikat.`,
       begin: 'Abschlussprüfung beginnen',
+      last: 'Ergebnis der Abschlussprüfung',
+      goOn: (number, all) => `Abschlussprüfung mit Frage ${number} von ${all} fortsetzen`,
       back: 'Zurück zu den Lektionen',
       question: (number, all) => `Frage ${number} von ${all}`,
       next: 'Nächste Frage',
@@ -138,6 +140,7 @@ export const dialogs = {
       lessons: (done) => `${done} ${done === 1 ? 'Lektion' : 'Lektionen'} erledigt`,
       code: 'Ein Trainer liest diesen Code mit odkit lesson progress:',
     },
+    loading: 'Wird geladen…',
     noList: 'Die Liste der Lektionen konnte nicht geladen werden. Gibt es ein Netz?',
   },
   help: {
