@@ -5,6 +5,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::net::UnixStream;
+use std::time::Duration;
 
 use crate::support::quiet::{Sim, unix, until};
 use crate::support::sim::say;
@@ -146,6 +147,9 @@ fn a_frame_for_which_the_queue_has_no_room_is_not_sent() {
     assert_eq!(alone.code, 0, "{}", alone.err);
     // Without another node no frame leaves the queue.
     let mut client = sim.client();
+    // The error frames of the lone node keep a busy computer from its clients.
+    let patience = Some(Duration::from_mins(2));
+    client.set_read_timeout(patience).expect("a time limit");
     let frames = "t0010\r".repeat(1100);
     client
         .write_all(format!("O\r{frames}F\r").as_bytes())

@@ -324,12 +324,12 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
     }
     assert_eq!(run.err.matches("[W1207]").count(), 5, "{}", run.err);
     let text = "[Topology]\nNodes=2\nNode4Present=1\nNode4Name=Left\nNode4DCFName=n4.dcf\nNode5Present=1\nNode5Name=Left\n\
-        Node5DCFName=n5.dcf\nNode5Nmae=Right\n[Topology]\nNodse=0\nNode6Refd=1\n";
+        Node5DCFName=n5.dcf\nNode5DCFNam=Right\n[Topology]\nNodse=0\nNode6Refd=1\n";
     fs::write(&list, text).expect("a file");
     let run = odkit(&["network", &paths[0]], "");
     for (line, message) in [
         (7, "node 5 has the name `Left`, as node 4 has"),
-        (9, "`Node5Nmae` is not a key of a node list"),
+        (9, "`Node5DCFNam` is not a key of a node list"),
         (10, "duplicate section [Topology]"),
         (11, "`Nodse` is not a key of a node list"),
     ] {

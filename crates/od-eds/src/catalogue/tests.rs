@@ -219,7 +219,7 @@ fn faults_of_networks() -> Vec<Finding> {
     ];
     let mut found = crate::network::check(&nodes, None, 10, 0);
     let list = "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode2Name=x\nNode3DCFName=500\nNode3Name=x\n\
-        Node3Nmae=y\n[Topology]\n";
+        Node3DCFNam=y\n[Topology]\n";
     let dcf = |rate: &str| {
         let text = format!("[DeviceComissioning]\nNodeID=2\nBaudrate={rate}\n");
         Ok(crate::load::parse(&text).description)

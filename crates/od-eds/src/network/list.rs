@@ -182,7 +182,7 @@ fn topology(
     Ok(list)
 }
 
-/// The key of CiA 306-3 that a key misspells: `Node5DCFName` for `Node5DCFNmae`.
+/// The key of CiA 306-3 that a key misspells: `Node5DCFName` for `Node5DCFNam`.
 fn meant(key: &str) -> Option<String> {
     const OF_LIST: [&str; 4] = ["NetName", "NetRefd", "Nodes", "EDSBaseName"];
     const OF_NODE: [&str; 4] = ["Present", "Name", "Refd", "DCFName"];

@@ -7,6 +7,8 @@ use alloc::vec::Vec;
 
 use od_model::{Address, DataType, Dictionary, Kind};
 
+use super::in_first;
+
 /// Values of one object, or of a range of objects of the same kind.
 struct Row {
     /// Number of the device profile; 0 for CiA 301 and CiA 302.
@@ -364,11 +366,7 @@ fn row_of(profile: Option<u16>, index: u16, sub: u8) -> Option<&'static Row> {
     let rows = TABLE.iter();
     let mut own = rows.filter(|row| row.profile == 0 || Some(row.profile) == profile);
     own.find(|row| {
-        // The objects of the second device of a module, and of the second axis, are 800h higher.
-        let own = match row.profile {
-            401 | 402 if index >= 0x6000 => 0x6000 + (index - 0x6000) % 0x800,
-            _ => index,
-        };
+        let own = in_first(row.profile, index);
         (row.first..=row.last).contains(&own) && (row.subs.0..=row.subs.1).contains(&sub)
     })
 }

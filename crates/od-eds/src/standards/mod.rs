@@ -36,7 +36,16 @@ fn rows(profile: u16) -> impl Iterator<Item = &'static Row> {
     tables(profile).iter().copied().flatten()
 }
 
+/// The index that an object of CiA 401 and 402 has in the first logical device or axis: those of the others are 800h apart.
+const fn in_first(profile: u16, index: u16) -> u16 {
+    match profile {
+        401 | 402 if index >= 0x6000 && index < 0xA000 => 0x6000 + (index - 0x6000) % 0x800,
+        _ => index,
+    }
+}
+
 fn row(profile: u16, index: u16) -> Option<&'static Row> {
+    let index = in_first(profile, index);
     rows(profile).find(|row| (row.first..=row.last).contains(&index))
 }
 
@@ -93,6 +102,8 @@ mod tests {
         assert_eq!(profile_name(406, 0x7000), None);
         assert_eq!(profile_types(406, 0x6004, 0), [DataType::Unsigned32]);
         assert_eq!(profile_types(402, 0x6049, 2), [DataType::Unsigned16]);
+        // The fourth axis.
+        assert_eq!(profile_types(402, 0x7862, 0), [DataType::Integer32]);
         assert_eq!(profile_types(404, 0x7130, 1), [DataType::Integer16]);
         assert_eq!(profile_types(404, 0x6110, 1), [DataType::Unsigned16]);
         assert!(checked(404, 0x6111).is_none() && checked(402, 0x604D).is_none());

@@ -46,6 +46,18 @@ pub(super) fn device_type(description: &Description) -> Option<DeviceType> {
     })
 }
 
+/// The profile of this object. In a module of several logical devices each has its own, in 67FFh and every 800h above
+/// (CiA 301, object 1000h).
+fn profile_of(description: &Description, index: u16) -> Option<u16> {
+    let device = device_type(description)?;
+    if !device.is_several() || index < 0x6800 {
+        return Some(device.profile);
+    }
+    let own = Address::new(index | 0x7FF, 0);
+    let [low, high, ..] = start_number(description, own)?.value.to_le_bytes();
+    Some(u16::from_le_bytes([low, high]))
+}
+
 /// Of an I/O module: a bit of 1000h, the objects of which the device must have one, and the
 /// channels.
 pub(super) const IO_BLOCKS: [(u32, &[u16], &str); 4] = [
@@ -70,7 +82,7 @@ pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {
 
 /// The type of a value in the profile of the device.
 pub(crate) fn profile_type(description: &Description, address: Address) -> Option<DataType> {
-    let standard = checked(device_type(description)?.profile, address.index)?;
+    let standard = checked(profile_of(description, address.index)?, address.index)?;
     if standard.code.has_members() && address.sub == 0 {
         Some(DataType::Unsigned8)
     } else {
@@ -83,7 +95,7 @@ pub(crate) fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)>
     if !matches!(object.index, 0x6000..=0x9FFF) {
         return None;
     }
-    let profile = device_type(object.description)?.profile;
+    let profile = profile_of(object.description, object.index)?;
     Some((profile, checked(profile, object.index)?))
 }
 
