@@ -7,8 +7,8 @@ use od_wire::AbortCode::{
 };
 use od_wire::Frame;
 
-use super::segments::{long_value, short_value};
-use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
+use super::segments::{ended_by_abort, long_value, short_value};
+use crate::conform::dut::{ANSWER, Dut, is_data};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::record::Traced;
 use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request, reserved_are_0};
@@ -392,20 +392,7 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
     begin(dut, address, PLAIN)?;
-    dut.send(Frame::full(
-        dut.node.plus(0x600),
-        request(0x80, address, [0, 0, 0, 8]),
-    ))?;
-    let id = dut.id(0x580);
-    dut.silent(id, QUIET, "no response to an abort")?;
-    let answer = dut.answer([0xA3, 0, 0, 0, 0, 0, 0, 0])?;
-    ensure(
-        abort_of(&answer).is_some(),
-        "an abort: the block upload is over",
-        format!("{} came", values::hex(&answer)),
-    )?;
-    let again = dut.read(address)?;
-    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+    ended_by_abort(dut, address, &bytes, 0xA3)
 }
 
 /// Block transfers are refused as other transfers: of an object that is missing, and a download to one that is read only.

@@ -250,20 +250,31 @@ pub(super) fn no_transfer(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
     begin(dut, address)?;
+    ended_by_abort(dut, address, &bytes, 0x60)
+}
+
+/// The client aborts an open upload. Then a request with the command `next` of this upload is refused, and the object can
+/// be read again.
+pub(super) fn ended_by_abort(
+    dut: &mut Dut<'_>,
+    address: Address,
+    bytes: &[u8],
+    next: u8,
+) -> Checked {
     dut.send(Frame::full(
         dut.node.plus(0x600),
         request(0x80, address, [0, 0, 0, 8]),
     ))?;
     let id = dut.id(0x580);
     dut.silent(id, QUIET, "no response to an abort")?;
-    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+    let answer = dut.answer([next, 0, 0, 0, 0, 0, 0, 0])?;
     ensure(
         abort_of(&answer).is_some(),
         "an abort: the transfer is over",
         format!("{} came", values::hex(&answer)),
     )?;
     let again = dut.read(address)?;
-    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+    ensure(again == bytes, values::hex(bytes), values::hex(&again))
 }
 
 /// Reset communication ends an open transfer.

@@ -111,7 +111,7 @@ pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
     let pdo = typed(dut, 0)?;
     starts_silent(dut, &pdo)?;
     none(dut, &pdo, 300_000, "no TPDO without SYNC")?;
-    // A TPDO of this type also wants an event, and a value that does not change is none.
+    // A TPDO of this type also needs an event, and without a change of its value there is none.
     let (mut last, mut same) = (None, 0);
     for _ in 0..SYNCS {
         sync(dut)?;
@@ -127,7 +127,7 @@ pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// Number of SYNC messages for a TPDO that wants an event.
+/// Number of SYNC messages for a TPDO that needs an event.
 const SYNCS: u8 = 6;
 
 /// Starts the node; a synchronous TPDO does not come with the start.
