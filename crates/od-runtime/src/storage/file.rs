@@ -120,49 +120,18 @@ impl File {
             capacity: rest.len(),
             repaired: None,
         };
-        let identity = header::line(owner.identity);
-        let foreign = |of| OpenError::Foreign {
-            path: path.into(),
-            of,
-            device: [owner.name.into(), identity.clone()],
-        };
         // Number of bytes of the file when it was made.
         let whole = match &seen {
             Seen::Whole(header) => LEN + header.capacity,
             Seen::Version(_) => 0,
             _ => LEN + capacity,
         };
-        let is_blank = |bytes: &[u8]| bytes.iter().all(|byte| *byte == ERASED);
-        let is_fresh = match seen {
-            Seen::Other | Seen::Unfinished => true,
-            _ if erased => true,
-            // A file without values loses nothing.
-            Seen::Version('1') if is_blank(&header[SIGNATURE.len()..]) && is_blank(&rest) => true,
-            Seen::Version(version) => return Err(OpenError::Version(path.into(), version)),
-            Seen::Whole(header) if header.identity != identity => {
-                return Err(foreign([header.name, header.identity]));
-            }
-            Seen::Whole(_) | Seen::Damaged if is_blank(&rest) => true,
-            Seen::Whole(header) => {
-                opened.capacity = header.capacity;
-                false
-            }
-            Seen::Damaged => {
-                // The saved values themselves name their device.
-                let writer = image::writer(&mut opened);
-                if writer.is_ok_and(|writer| writer.is_some_and(|one| one != owner.device)) {
-                    let why = "the header of the file is damaged".into();
-                    return Err(foreign(["another device".into(), why]));
-                }
-                opened.repaired = Some("the header was damaged; odkit wrote a new one".into());
-                false
-            }
-        };
+        let has = header.len() + rest.len();
+        let is_fresh = erased || !opened.has_values(path, owner, seen, &header, &rest)?;
         if is_fresh {
             opened.capacity = capacity;
-            let has = header.len() + rest.len();
             if was_there && !erased && has < whole {
-                opened.repaired = Some(std::format!(
+                opened.repaired = Some(format!(
                     "the file has {has} of {whole} bytes, and no saved values; the device starts with its defaults"
                 ));
             }
@@ -173,25 +142,75 @@ impl File {
                 needs: capacity,
             });
         }
-        let mut bytes = Header::write(owner, opened.capacity, process::id());
-        let missing = opened.capacity.saturating_sub(rest.len());
-        if is_fresh {
-            bytes.resize(LEN + capacity, ERASED);
-            opened.file.set_len(bytes.len() as u64).map_err(fail)?;
-        } else if missing > 0 {
-            let all = LEN + opened.capacity;
-            let why = std::format!("the last {missing} of {all} bytes were missing");
-            opened.repaired = Some(why);
-            opened
-                .put(LEN + rest.len(), &vec![LOST; missing])
-                .map_err(fail)?;
+        opened.complete(owner, is_fresh, rest.len()).map_err(fail)?;
+        Ok(opened)
+    }
+
+    /// Returns whether the file has saved values of this device. Sets the capacity to that in its
+    /// header.
+    fn has_values(
+        &mut self,
+        path: &Path,
+        owner: &Owner<'_>,
+        seen: Seen,
+        header: &[u8],
+        rest: &[u8],
+    ) -> Result<bool, OpenError> {
+        let identity = header::line(owner.identity);
+        let foreign = |of| OpenError::Foreign {
+            path: path.into(),
+            of,
+            device: [owner.name.into(), identity.clone()],
+        };
+        let is_blank = |bytes: &[u8]| bytes.iter().all(|byte| *byte == ERASED);
+        match seen {
+            Seen::Other | Seen::Unfinished => Ok(false),
+            // A file without values loses nothing.
+            Seen::Version('1') if is_blank(&header[SIGNATURE.len()..]) && is_blank(rest) => {
+                Ok(false)
+            }
+            Seen::Version(version) => Err(OpenError::Version(path.into(), version)),
+            Seen::Whole(header) if header.identity != identity => {
+                Err(foreign([header.name, header.identity]))
+            }
+            Seen::Whole(_) | Seen::Damaged if is_blank(rest) => Ok(false),
+            Seen::Whole(header) => {
+                self.capacity = header.capacity;
+                Ok(true)
+            }
+            Seen::Damaged => {
+                // The saved values themselves name their device.
+                let writer = image::writer(self);
+                if writer.is_ok_and(|writer| writer.is_some_and(|one| one != owner.device)) {
+                    let why = "the header of the file is damaged".into();
+                    return Err(foreign(["another device".into(), why]));
+                }
+                self.repaired = Some("the header was damaged; odkit wrote a new one".into());
+                Ok(true)
+            }
         }
-        opened.put(0, &bytes).map_err(fail)?;
+    }
+
+    /// Writes a new header, and the bytes that are missing after it. `len` is the present number of
+    /// bytes after the header.
+    fn complete(&mut self, owner: &Owner<'_>, is_fresh: bool, len: usize) -> io::Result<()> {
+        let mut bytes = Header::write(owner, self.capacity, process::id());
+        let missing = self.capacity.saturating_sub(len);
+        if is_fresh {
+            bytes.resize(LEN + self.capacity, ERASED);
+            self.file.set_len(bytes.len() as u64)?;
+        } else if missing > 0 {
+            let all = LEN + self.capacity;
+            let why = format!("the last {missing} of {all} bytes were missing");
+            self.repaired = Some(why);
+            self.put(LEN + len, &vec![LOST; missing])?;
+        }
+        self.put(0, &bytes)?;
         // A header that is incomplete after a power cut is damaged, but no value is lost.
         if is_fresh || missing > 0 {
-            opened.file.sync_all().map_err(fail)?;
+            self.file.sync_all()?;
         }
-        Ok(opened)
+        Ok(())
     }
 
     fn put(&mut self, at: usize, bytes: &[u8]) -> io::Result<()> {

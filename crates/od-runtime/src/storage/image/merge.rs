@@ -180,6 +180,14 @@ pub(super) enum Source<'b> {
     Storage(usize),
 }
 
+/// Origin of a record of the next set.
+pub(super) enum Origin {
+    Store,
+    /// The newest set.
+    Newest,
+    None,
+}
+
 impl Set<'_, '_> {
     /// Merges the newest set and the dictionary, which are both sorted by address.
     fn records(&mut self, profile: &StoreProfile) {
@@ -199,14 +207,13 @@ impl Set<'_, '_> {
                 old.next(self.medium);
             }
             let Some(row) = row else { return };
-            let (is_old, is_meant) = (old.key == key, self.is_meant(profile, row));
-            if is_meant && self.goes_in(row) {
-                self.value(profile, row);
+            let is_old = old.key == key;
+            match self.origin(profile, row, is_old) {
+                Origin::Store => self.value(profile, row),
+                Origin::Newest => self.put(Source::Storage(old.at - RECORD), RECORD + old.len),
+                Origin::None => {}
             }
             if is_old {
-                if !is_meant && (!self.medium.banks.is_withdrawn || is_life_record(row)) {
-                    self.put(Source::Storage(old.at - RECORD), RECORD + old.len);
-                }
                 old.next(self.medium);
             }
         }
@@ -224,8 +231,23 @@ impl Set<'_, '_> {
         !is_dropped && !self.medium.banks.is_withdrawn && (index == OWN || self.has_orphans)
     }
 
+    /// Returns where the record of a row comes from. `is_old`: the newest set has one.
+    pub(super) fn origin(&self, profile: &StoreProfile, row: &Row, is_old: bool) -> Origin {
+        if self.is_meant(profile, row) {
+            if self.goes_in(row) {
+                Origin::Store
+            } else {
+                Origin::None
+            }
+        } else if is_old && (!self.medium.banks.is_withdrawn || is_life_record(row)) {
+            Origin::Newest
+        } else {
+            Origin::None
+        }
+    }
+
     /// Returns whether the plan covers a value.
-    pub(super) fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
+    fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
         match *self.plan {
             Plan::Save(_) if is_life_record(row) => true,
             Plan::Restore(_) if is_life_record(row) => false,
@@ -236,7 +258,7 @@ impl Set<'_, '_> {
     }
 
     /// Returns whether a value that the plan covers is saved.
-    pub(super) fn goes_in(&self, row: &Row) -> bool {
+    fn goes_in(&self, row: &Row) -> bool {
         match self.plan {
             Plan::Restore(_) => false,
             // An unchanged default with `$NODEID` follows the node ID.

@@ -1,9 +1,9 @@
-//! The records of the next set in steps; [`Set::records`] writes the same records at once.
+//! The records of the next set in steps; [`Set::records`] writes them at once.
 
-use super::covered::{is_life_record, is_saved};
+use super::covered::is_saved;
 use super::layout::RECORD;
 use super::medium::Medium;
-use super::merge::{Set, Source};
+use super::merge::{Origin, Set, Source};
 use super::survey::{END, Records};
 use crate::profile::StoreProfile;
 
@@ -87,18 +87,17 @@ impl Walk {
             return false;
         }
         let Some(row) = row else { return true };
-        let (is_old, is_meant) = (self.old.key == key, set.is_meant(profile, row));
-        if is_meant && set.goes_in(row) {
-            self.piece = Some(Piece {
+        let is_old = self.old.key == key;
+        self.piece = match set.origin(profile, row, is_old) {
+            Origin::Store => Some(Piece {
                 from: From::Row(self.row),
                 done: 0,
                 len: set.store.stored(row).len(),
-            });
-        }
+            }),
+            Origin::Newest => Some(of_old),
+            Origin::None => None,
+        };
         if is_old {
-            if !is_meant && (!set.medium.banks.is_withdrawn || is_life_record(row)) {
-                self.piece = Some(of_old);
-            }
             self.old.next(set.medium);
         }
         self.row += 1;
