@@ -70,7 +70,7 @@ fn field(body: ParseStream) -> syn::Result<(Ident, Field)> {
         ));
     }
     body.parse::<Token![=]>()
-        .map_err(|e| syn::Error::new(e.span(), format!("expected `=` behind `{key}`")))?;
+        .map_err(|e| syn::Error::new(e.span(), format!("expected `=` after `{key}`")))?;
     let first = body.span();
     let (change, last) = match name.as_str() {
         "name" => (Change::Name(text(body)?), None),
@@ -143,7 +143,7 @@ fn value(body: ParseStream) -> syn::Result<(Option<Raw>, Option<Span>)> {
         body.parse::<Token![+]>()?;
         let offset: syn::LitInt = body
             .parse()
-            .map_err(|e| syn::Error::new(e.span(), "expected a number behind `$NODEID +`"))?;
+            .map_err(|e| syn::Error::new(e.span(), "expected a number after `$NODEID +`"))?;
         return Ok((
             Some(Raw::NodeId(offset.base10_parse()?)),
             Some(offset.span()),
@@ -189,7 +189,7 @@ fn value(body: ParseStream) -> syn::Result<(Option<Raw>, Option<Span>)> {
     Ok((Some(raw), None))
 }
 
-/// Reports an operator behind a value.
+/// Reports an operator after a value.
 fn calculated(body: ParseStream, help: &str) -> syn::Result<()> {
     match body.fork().parse::<TokenTree>() {
         Ok(TokenTree::Punct(sign)) if "+-*/%<>&|^".contains(sign.as_char()) => {

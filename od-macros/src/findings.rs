@@ -100,7 +100,7 @@ impl Patch<'_> {
         if let Some(later) = self.edits.iter().find(is_its) {
             let line = report.span(later.target.span).and_then(Place::line);
             let line = line.map_or(String::new(), |line| format!(" in line {line}"));
-            told.help = format!("move this statement behind `add {target}`{line}");
+            told.help = format!("move this statement after `add {target}`{line}");
         } else if self.files.is_none() && told.help.contains("odkit dump") {
             told.help = format!("write `add {target} {{ … }}` first");
         }

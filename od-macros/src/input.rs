@@ -110,14 +110,14 @@ fn apart(target: Target, stream: ParseStream) -> Option<syn::Error> {
     let help = format!("write `{target}sub{digits}`");
     Some(syn::Error::new(
         at,
-        format!("a sub-index is behind `sub`, as a part of its object\nhelp: {help}"),
+        format!("a sub-index follows `sub`, as a part of its object\nhelp: {help}"),
     ))
 }
 
-/// Reads `=` behind a word.
+/// Reads `=` after a word.
 fn equals(body: ParseStream, word: &Ident, example: &str) -> syn::Result<()> {
     body.parse::<Token![=]>().map(drop).map_err(|e| {
-        let message = format!("expected `=` behind `{word}`\nhelp: `{example}`");
+        let message = format!("expected `=` after `{word}`\nhelp: `{example}`");
         syn::Error::new(e.span(), message)
     })
 }
@@ -132,7 +132,7 @@ impl Input {
                 let help = "one call makes one module: put variants inside it, and other devices into their own call";
                 report.at(
                     stream.span(),
-                    format!("unexpected tokens behind the module\nhelp: {help}"),
+                    format!("unexpected tokens after the module\nhelp: {help}"),
                 );
                 skip_all(stream);
             }
@@ -488,7 +488,7 @@ fn semicolon(body: ParseStream, last: Span, report: &mut Report) -> syn::Result<
         return Ok(());
     }
     if body.is_empty() || starts_statement(body) {
-        report.at(last, "expected `;` behind this");
+        report.at(last, "expected `;` after this");
         return Ok(());
     }
     Err(syn::Error::new(body.span(), "expected `;`"))

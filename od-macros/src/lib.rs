@@ -373,7 +373,7 @@ mod tests {
                 "mod device {{ {WIDE} rename 0x1000 = KIND {item} }}"
             ));
             assert_eq!(errors.len(), 1, "{item}");
-            assert!(errors[0].contains("expected `;` behind this"), "{item}");
+            assert!(errors[0].contains("expected `;` after this"), "{item}");
         }
     }
 

@@ -33,7 +33,7 @@ KINDS = {
     "name: `;` in a name": (
         "odkit", "A comment has a line of its own (CiA 306-1); python-canopen cuts the name at ` ;`."),
     "name: member of CompactSubObj": (
-        "odkit", "CiA 306-1: the name is ParameterName with the sub-index behind it; python-canopen writes `_`."),
+        "odkit", "CiA 306-1: the name is ParameterName with the sub-index after it; python-canopen writes `_`."),
     "name: NrOfObjects": (
         "odkit", "CiA 306-1 gives sub-index 0 of CompactSubObj this name."),
     "type: not a basic type": (

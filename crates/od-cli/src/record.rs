@@ -21,7 +21,7 @@ use crate::report::plural;
 /// Record the frames of a bus, until Ctrl-C
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Log to write: candump (.log) or pcapng. It replaces a log of this format; any other file is refused
+    /// Log to write: candump (.log) or pcapng. odkit replaces a log of the same format, and refuses any other file
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Stop after this time, in seconds

@@ -152,7 +152,7 @@ impl File {
     }
 }
 
-/// Sets a key, which is added behind the others if it is new.
+/// Sets a key, which is added after the others if it is new.
 fn set(lines: &mut Vec<Line>, pair: &str, marked: bool) {
     let (key, _) = pair.split_once('=').expect("a key and a value");
     let start = format!("{key}=");

@@ -71,7 +71,7 @@ fn a_section_with_a_misspelled_name_still_counts() {
 
 #[test]
 fn a_gap_is_not_filled_with_a_sub_index_in_decimal_that_is_elsewhere() {
-    // Sub-index 1 is missing, and `sub10` behind `sub9` may well be decimal.
+    // Sub-index 1 is missing, and `sub10` after `sub9` is probably decimal.
     let subs = ["2", "3", "4", "5", "6", "7", "8", "9", "10"];
     let text = subs.iter().fold(
         String::from("[2010]\nParameterName=a\nObjectType=0x8\nSubNumber=9\n"),

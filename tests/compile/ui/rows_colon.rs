@@ -1,4 +1,4 @@
-//! A sub-index behind a colon, as logs write it.
+//! A sub-index after a colon, as logs write it.
 use odkit::object_dictionary;
 
 object_dictionary! {

@@ -1,4 +1,4 @@
-//! A sub-index behind a space or a slash, and several objects in one statement.
+//! A sub-index after a space or a slash, and several objects in one statement.
 
 use odkit::object_dictionary;
 

@@ -104,7 +104,7 @@ impl FromStr for Target {
         let sub = sub.map(|sub| {
             u8::from_str_radix(sub, 16).map_err(|_| {
                 format!(
-                    "`{text}` has no sub-index\nhelp: up to two hex digits behind `sub`: \
+                    "`{text}` has no sub-index\nhelp: up to two hex digits after `sub`: \
                      `0x{index:04X}sub0` to `0x{index:04X}subFF`"
                 )
             })

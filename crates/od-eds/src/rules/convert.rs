@@ -185,7 +185,7 @@ pub(crate) static W1111: Rule = Rule {
     title: "mapped object has no room in the message",
     why: "A PDO has 64 bits. odkit leaves out the object that does not fit, and those after it.",
     source: "CiA 301, PDO mapping",
-    example: "[1A00sub3] maps 32 bits behind 64",
+    example: "[1A00sub3] maps 32 bits after 64",
     says: "{mapped} has no room in the 64 bits of the PDO",
     help: "remove a mapping entry, or map a shorter object",
     ..Rule::of("W1111")

@@ -53,7 +53,7 @@ pub(crate) fn line(
             problem
         })?,
         None if word == "random" => {
-            let help = "write the time behind it, such as `random after 100ms power off`";
+            let help = "write the time after it, such as `random after 100ms power off`";
             return Err(start.problem("`random` begins the line", help));
         }
         None if word == "wait" => {

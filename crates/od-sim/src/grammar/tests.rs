@@ -251,7 +251,7 @@ fn a_draw_is_read_with_both_ends_of_its_ranges() {
         ),
         (
             "after 1ms random fault",
-            "1:11: `random` begins the line; write the time behind it",
+            "1:11: `random` begins the line; write the time after it",
         ),
     ] {
         check(line, problem);

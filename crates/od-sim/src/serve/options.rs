@@ -113,9 +113,9 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "node-id",
         value: "N",
-        help: "Node ID of the node at the start, 1 to 127, or `none` (255): it waits for LSS; repeat it \
-               for the next node (a redundant encoder has two). An encoder with rotary switches has \
-               them at this node ID (1 to 99). Without it a node gets 1, or the next free node ID",
+        help: "Node ID of the node at the start, 1 to 127, or `none` (255): the node waits for LSS. Repeat the \
+               option for each further node (a redundant encoder has two). It also sets the rotary switches \
+               of an encoder (1 to 99). Without the option a node gets 1, or the next free node ID",
         repeats: true,
         set: |options, text| {
             let node_id = match text {
@@ -130,8 +130,8 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "serial",
         value: "NUMBER",
-        help: "Serial number of the node (1018h:04); repeat it for the next node. Without it nodes of \
-               one type get different ones",
+        help: "Serial number of the node (1018h:04); repeat the option for each further node. Without it nodes \
+               of one type get different ones",
         repeats: true,
         set: |options, text| {
             let value = values::integer(text).and_then(|value| u32::try_from(value).ok());
@@ -163,8 +163,8 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "origin",
         value: "URL",
-        help: "Origin of a page that may use a ws link, such as https://example.org; pages of this \
-               computer may; may be repeated",
+        help: "Origin of a page that may use a ws link, such as https://example.org; may be repeated. \
+               Pages of this computer may use it anyway",
         repeats: true,
         set: |options, text| {
             options.origins.push(web_socket::origin(text)?);
@@ -175,7 +175,8 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "eeprom",
         value: "FILE",
-        help: "File for the values saved with 1010h, of this device only; repeat it for the next node \
+        help: "File for the values that a node saves (1010h); a file of another device is refused. Repeat the \
+               option for each further node \
                [default: in memory]",
         repeats: true,
         set: |options, text| {
@@ -187,8 +188,8 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "domain-size",
         value: "SIZE",
-        help: "Bytes for each string and DOMAIN that masters write (1025, 64KiB, 1MiB), or those of its \
-               default value if that is longer; for devices of files",
+        help: "Room in bytes for each string and DOMAIN that masters write, such as 1025, 64KiB or 1MiB; a \
+               longer default value has the room that it needs. Only for devices that a file describes",
         default: Some("1MiB"),
         set: |options, text| {
             let bytes = size::parse(text);
@@ -200,7 +201,7 @@ pub const CHOICES: [Choice; 17] = [
     },
     Choice {
         name: "eeprom-reset",
-        help: "Erase these files at the start, whichever device they belong to",
+        help: "Erase the files of --eeprom at the start, even if another device saved them",
         set: |options, _| {
             options.eeprom_reset = true;
             Ok(())
@@ -248,8 +249,8 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "control",
         value: "unix:PATH|tcp:HOST:PORT",
-        help: "Socket that takes lines while the bench runs, from `odkit ctl`: power, shaft, faults, \
-               values, `stats`; only for this user (TCP: this computer)",
+        help: "Socket for the lines of `odkit ctl` while the bench runs: power, shaft, faults, values, `stats`. \
+               Only this user can open it (TCP: each user of this computer)",
         set: |options, text| Place::parse(text).map(|value| options.control = Some(value)),
         ..PLAIN
     },
@@ -257,7 +258,7 @@ pub const CHOICES: [Choice; 17] = [
         name: "log",
         value: "FILE",
         help: "Log file of all frames with their times of day: pcapng if the name ends in .pcapng, \
-               otherwise candump. It replaces a log of this format; any other file is refused",
+               otherwise candump. odkit replaces a log of the same format, and refuses any other file",
         set: |options, text| {
             log::format(text.as_ref())?;
             options.log = Some(PathBuf::from(text));
@@ -270,8 +271,8 @@ pub const CHOICES: [Choice; 17] = [
         value: "PATH",
         help: "File of this user that is written when everything listens, in JSON: process and its start, \
                links with their ports and paths, nodes, control socket; `-`: one line on standard output, \
-               with the token of a ws link, which the file does not have. It replaces a ready file of an earlier bench; any other \
-               file is refused",
+               which also has the token of a ws link. odkit replaces the ready file of an earlier bench, and \
+               refuses any other file",
         set: |options, text| {
             options.ready_file = Some(PathBuf::from(text));
             Ok(())
