@@ -1,5 +1,5 @@
-//! The behaviour of a device: the shaft of an encoder, none, or that of its maker, and beside
-//! it what only a device of a file has.
+//! The behaviour of a device: that of an encoder, that of its maker, or none. A device of a file has
+//! more beside it: strings and DOMAINs of any length, a clock, programs.
 
 use std::prelude::v1::*;
 
@@ -20,7 +20,7 @@ use crate::device::beside::{Beside, Long, room};
 use crate::device::programs::Loader;
 use crate::shaft::{self, Shaft};
 
-/// Behaviour behind a dictionary.
+/// The behaviour that belongs to the objects of a dictionary.
 #[derive(Clone)]
 pub(crate) enum Behind {
     Encoder(Box<Encoder<Shaft>>),
@@ -32,9 +32,9 @@ pub(crate) enum Behind {
 #[derive(Clone)]
 pub(crate) struct Behaviour {
     pub(crate) behind: Behind,
-    /// Replaces the default of 1018h:04 where the behaviour has no serial number of its own.
+    /// Replaces the default of 1018h:04 if the behaviour has no serial number of its own.
     pub(crate) serial_number: Option<u32>,
-    /// Of a device of a file.
+    /// The parts of a device of a file.
     #[cfg(feature = "eds")]
     pub(crate) beside: Option<Beside>,
 }
@@ -51,7 +51,7 @@ impl From<Behind> for Behaviour {
 }
 
 impl Behaviour {
-    /// An encoder where there is a position (6004h), else nothing.
+    /// An encoder if the dictionary has a position value (6004h); otherwise no behaviour.
     pub(crate) fn of(dictionary: Dictionary<'_>) -> Self {
         let behind = match shaft::encoder_of(dictionary) {
             Some(encoder) => Behind::Encoder(Box::new(encoder)),
@@ -74,7 +74,7 @@ impl Behaviour {
         }
     }
 
-    /// The behaviour without what is beside it.
+    /// The behaviour without the parts of a device of a file.
     pub(crate) fn own(&self) -> &dyn Application {
         match &self.behind {
             Behind::Encoder(encoder) => &**encoder,
@@ -83,7 +83,7 @@ impl Behaviour {
         }
     }
 
-    /// The behaviour without what is beside it.
+    /// The behaviour without the parts of a device of a file.
     pub(crate) fn own_mut(&mut self) -> &mut dyn Application {
         match &mut self.behind {
             Behind::Encoder(encoder) => &mut **encoder,
@@ -209,14 +209,14 @@ impl Application for Behaviour {
     }
 }
 
-/// Strings and DOMAINs of any length, and programs, of a device of a file.
+/// Strings, DOMAINs and programs of a device of a file.
 #[cfg(feature = "eds")]
 impl Behaviour {
     fn long(&mut self) -> &mut Long {
         &mut self.beside.get_or_insert_default().long
     }
 
-    /// The program that an object holds, else the strings and DOMAINs.
+    /// The program that belongs to an object; otherwise the strings and DOMAINs.
     pub(crate) fn stream_beside(&mut self, address: Address) -> &mut dyn Stream {
         let programs = &mut self.beside.get_or_insert_default().programs;
         let loads = |loader: &mut Loader| loader.stream(address).is_some();
@@ -226,7 +226,7 @@ impl Behaviour {
         }
     }
 
-    /// Looks at the bytes at an address.
+    /// Calls `look` with the bytes at an address.
     fn look<R>(
         &mut self,
         store: &Store<'_>,
@@ -240,7 +240,7 @@ impl Behaviour {
         Ok(look(store.bytes(&entry, &mut [0; 8])))
     }
 
-    /// A value came whole.
+    /// Stores a value whose last part was written.
     fn keep(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), Halt> {
         let mut value = core::mem::take(self.long().coming(address));
         value.shrink_to_fit();
@@ -254,7 +254,7 @@ impl Behaviour {
         if value.len() <= room(&entry) {
             cx.store.put(&entry, &value)?;
         } else {
-            // A value that 1010h saves begins with its default.
+            // The store has no room for it, and holds the default, which is what 1010h saves.
             cx.store.reset_entry(&entry);
             self.long().values.push((address, value));
         }
@@ -263,7 +263,7 @@ impl Behaviour {
     }
 }
 
-/// Strings and DOMAINs of a file's device.
+/// Strings and DOMAINs of a device of a file.
 #[cfg(feature = "eds")]
 impl Stream for Behaviour {
     fn begin_download(
@@ -324,7 +324,7 @@ impl Stream for Behaviour {
     ) -> Result<(), Halt> {
         let at = at as usize;
         self.look(cx.store, address, |value| {
-            // The value may have changed since its length was announced.
+            // The value may have changed since the server announced its length.
             let part = value.get(at..at + to.len()).ok_or(AbortCode::General)?;
             to.copy_from_slice(part);
             Ok(())

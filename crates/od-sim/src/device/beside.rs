@@ -1,5 +1,5 @@
-//! Parts of a device of a file beside its behaviour: strings and DOMAINs of any length (the store has
-//! those that fit into it, and the longer ones take memory when a master writes them), a clock, and programs.
+//! The parts of a device of a file beside its behaviour: strings and DOMAINs that are too long for the store,
+//! a clock, and programs. A long value takes memory only when a master writes it.
 
 use std::prelude::v1::*;
 
@@ -9,17 +9,17 @@ use od_runtime::{AbortCode, Application, Context, Reset, Store, TimeOfDay};
 use crate::device::clock::Clock;
 use crate::device::programs::{self, Programs};
 
-/// Most bytes of a DOMAIN that a master writes, where nothing says another number.
+/// Default limit of a DOMAIN that a master writes, in bytes.
 pub(crate) const DOMAIN_SIZE: usize = 1 << 20;
 
 /// The values that the store has no room for.
 #[derive(Clone, Default)]
 pub(crate) struct Long {
-    /// Most bytes of a string or DOMAIN that a master writes, if its default is not longer. `None`:
-    /// [`DOMAIN_SIZE`], and for a string its room in the store.
+    /// Limit of a string or DOMAIN that a master writes, in bytes; a longer default raises it. `None`:
+    /// [`DOMAIN_SIZE`], for a string its room in the store.
     pub(crate) size: Option<usize>,
     pub(crate) values: Vec<(Address, Vec<u8>)>,
-    /// The values that masters write now, each by an SDO server of its own.
+    /// Values of downloads in progress, one for each SDO server.
     pub(crate) coming: Vec<(Address, Vec<u8>)>,
 }
 
@@ -31,7 +31,7 @@ impl Long {
         Some(value)
     }
 
-    /// Bytes that the values take, and the one that comes.
+    /// Memory of the values, with those of downloads in progress, in bytes.
     #[cfg(test)]
     pub(crate) fn memory(&self) -> usize {
         let values = self.values.iter().map(|(_, value)| value.capacity());
@@ -39,7 +39,7 @@ impl Long {
         values.chain(coming).sum()
     }
 
-    /// The part that came of a value.
+    /// The part of a value that a download in progress has brought so far.
     pub(crate) fn coming(&mut self, address: Address) -> &mut Vec<u8> {
         let known = self.coming.iter().position(|(own, _)| *own == address);
         let at = known.unwrap_or_else(|| {
@@ -53,7 +53,8 @@ impl Long {
         self.values.retain(|(own, _)| *own != address);
     }
 
-    /// After a reset the store has what was saved, or the default, unless that is too long for it.
+    /// Drops the values at a reset: the saved value or the default is then in the store. Keeps only the defaults
+    /// that are too long for it.
     fn reset(&mut self, store: &Store<'_>, reset: Reset) {
         let all = reset != Reset::Communication;
         let is_reset = |address: Address| all || (0x1000..0x2000).contains(&address.index);
@@ -67,7 +68,7 @@ impl Long {
         }
     }
 
-    /// Most bytes that a master writes into an entry.
+    /// Limit of a value that a master writes, in bytes.
     pub(crate) fn limit(&self, store: &Store<'_>, entry: &Entry) -> usize {
         let default = store.dictionary().literal_bytes(entry.default).len();
         let size = match self.size {
@@ -79,12 +80,12 @@ impl Long {
     }
 }
 
-/// Bytes that the store has for a value of variable length.
+/// Room of the store for a value of variable length, in bytes.
 pub(crate) fn room(entry: &Entry) -> usize {
     usize::from(entry.slot.len.saturating_sub(2))
 }
 
-/// The parts of a file's device.
+/// The parts of a device of a file.
 #[derive(Clone, Default)]
 pub(crate) struct Beside {
     pub(crate) long: Long,
@@ -122,7 +123,7 @@ impl Beside {
     }
 
     pub(crate) fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        // From the side of the device it goes into the store.
+        // A value that the device itself sets is in the store.
         self.long.remove(address);
         for loader in &mut self.programs {
             loader.written(cx, address);

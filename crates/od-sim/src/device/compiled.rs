@@ -19,7 +19,7 @@ impl VirtualDevice {
         Self::compiled(title, &device, node_id, behaviour)
     }
 
-    /// A device as that of [`of`](Self::of), with this behaviour. The crates that `odkit new` makes call it.
+    /// A device as [`of`](Self::of) makes it, with this behaviour. The crates that `odkit new` makes call it.
     pub fn with_application<D: Device>(
         title: &str,
         device: D,

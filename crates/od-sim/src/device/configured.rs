@@ -1,4 +1,4 @@
-//! A device as it is set up, for a DCF.
+//! The configuration of a device, for a DCF.
 
 use std::prelude::v1::*;
 use std::string::ToString;

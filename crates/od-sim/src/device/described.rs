@@ -1,5 +1,5 @@
-//! A device that describes a node of a real bus: its names and types are those of its dictionary, its
-//! values and its state are what was seen on the bus. It sends nothing.
+//! A device that describes a node of a real bus: names and types come from its dictionary, values and state
+//! from the frames of the bus. It sends nothing.
 
 use std::prelude::v1::*;
 
@@ -17,7 +17,7 @@ impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
     #[must_use]
     pub(crate) fn describing(mut self) -> Self {
-        // Power makes room for the values.
+        // A node has room for its values from its first power-on.
         self.node.power_on(Instant::ZERO);
         self.node.power_off();
         while self.node.poll_event().is_some() {}
@@ -51,19 +51,20 @@ impl VirtualDevice {
         self.described()?.state
     }
 
-    /// Returns whether the value of an object is the node's, and not one of its file.
+    /// Returns whether the value of an object is the one of the node. It is not if the device describes a node of a real bus
+    /// and the value was not seen yet: then it comes from the file.
     pub fn is_known(&self, address: Address) -> bool {
         let described = self.described();
         described.is_none_or(|one| one.known.contains_key(&address))
     }
 
-    /// Returns the value of an object that was seen last.
+    /// Returns the last value of an object that was seen on the bus.
     pub(crate) fn seen_value(&self, address: Address) -> Option<&[u8]> {
         let described = self.described()?;
         described.known.get(&address).map(Vec::as_slice)
     }
 
-    /// Keeps a value that the node has.
+    /// Stores a value that was seen on the bus.
     pub fn learn(&mut self, address: Address, bytes: &[u8]) {
         let Self {
             node,
@@ -80,7 +81,7 @@ impl VirtualDevice {
             let size = entry.data_type.size().unwrap_or(bytes.len());
             let bytes = bytes.get(..size).unwrap_or(bytes);
             described.known.insert(address, bytes.to_vec());
-            // A constant has no room there.
+            // The store has no room for a constant.
             let _ = store.put(&entry, bytes);
         });
         if (0x1800..0x1C00).contains(&address.index) {
@@ -99,7 +100,7 @@ impl VirtualDevice {
                 || self.tpdo(frame).is_some())
     }
 
-    /// The TPDO of the node that this frame is, as far as they were looked up.
+    /// The TPDO of the node with this CAN-ID, if its TPDOs were looked up.
     fn tpdo(&self, frame: &Frame) -> Option<&Tpdo> {
         let all = self.described()?.tpdos.as_ref()?;
         all.iter().find(|pdo| pdo.id == frame.id())
@@ -122,7 +123,7 @@ impl VirtualDevice {
         }
     }
 
-    /// A frame of the bus that the node is on.
+    /// Learns from a frame of the node's bus.
     pub(crate) fn observe(&mut self, frame: &Frame) {
         let node = self.node_id();
         if frame.id().raw() == 0 && !frame.id().is_extended() {
@@ -131,7 +132,7 @@ impl VirtualDevice {
         if let Some((_, state)) = watch::parse(frame).filter(|(sender, _)| *sender == node)
             && let Some(described) = self.described_mut()
         {
-            // After its start a node has other values; after the boot-up message it is Pre-operational.
+            // A node that has started has other values. After its boot-up message it is Pre-operational.
             if state == State::Initialising {
                 described.known.clear();
             }
@@ -153,7 +154,7 @@ impl VirtualDevice {
         }
     }
 
-    /// An NMT command: the node follows it. Its next heartbeat says whether it did.
+    /// Assumes that the node follows an NMT command; its next heartbeat corrects that.
     fn commanded(&mut self, frame: &Frame) {
         let node = self.node_id().raw();
         if let Some(command) = nmt::Repr::parse(frame.data())
@@ -169,7 +170,7 @@ impl VirtualDevice {
         }
     }
 
-    /// The values in a PDO of the node, which sends it in Operational only.
+    /// Stores the values in a PDO of the node. It is Operational, since only then it sends PDOs.
     fn received(&mut self, pdo: &Tpdo, frame: &Frame) {
         if let Some(described) = self.described_mut() {
             described.state = Some(State::Operational);
@@ -192,7 +193,7 @@ impl VirtualDevice {
         }
     }
 
-    /// A frame of an SDO transfer with the node, from any client.
+    /// Stores the values in the SDO transfers of any client with the node.
     fn sdo(&mut self, frame: &Frame, is_answer: bool) {
         let entry = self.dictionary().find(sdo::address(frame.bytes())).ok();
         let own = entry.and_then(|entry| entry.data_type.size());

@@ -1,4 +1,4 @@
-//! A device's EEPROM, which can break, and whose power can go while it is written.
+//! The EEPROM of a device. It can be defective, and its power can fail during a write.
 
 use std::cell::RefCell;
 use std::prelude::v1::*;
@@ -6,22 +6,22 @@ use std::vec;
 
 use od_runtime::storage::{Geometry, Memory, Storage, StorageError};
 
-/// A storage that takes no byte while it is broken; what it holds can still be read.
+/// A storage that refuses writes while it is broken, but can be read.
 ///
-/// A copy has a memory of its own, with the same bytes.
+/// A copy has the same bytes in a memory of its own.
 #[derive(Clone)]
 pub(crate) struct Eeprom {
     keeper: Keeper,
     geometry: Geometry,
     /// Nothing can be written.
     pub(crate) broken: bool,
-    /// Power will go while it is written.
+    /// The power is going to fail during a write.
     pub(crate) fails: bool,
 }
 
-/// Memory of the bytes.
+/// Place of the bytes.
 enum Keeper {
-    /// A memory of its own, with a supply that can be cut.
+    /// Memory of this program, whose power can be cut.
     Own(Memory<Vec<u8>>),
     Lent(RefCell<Box<dyn Storage + Send>>),
 }
@@ -44,13 +44,13 @@ impl Clone for Keeper {
 }
 
 impl Eeprom {
-    /// Bytes in memory.
+    /// An EEPROM with these bytes in memory.
     pub(crate) fn own(bytes: Vec<u8>) -> Self {
         let geometry = Geometry::eeprom(bytes.len());
         Self::new(Keeper::Own(Memory::new(bytes)), geometry)
     }
 
-    /// A storage of the caller.
+    /// An EEPROM whose bytes are in a storage of the caller.
     pub(crate) fn lent(storage: Box<dyn Storage + Send>) -> Self {
         let geometry = storage.geometry();
         Self::new(Keeper::Lent(RefCell::new(storage)), geometry)
@@ -79,7 +79,7 @@ impl Eeprom {
         Ok(self.storage())
     }
 
-    /// The memory, where it is its own.
+    /// The memory; `None` if the bytes are in a storage of the caller.
     pub(crate) fn memory(&mut self) -> Option<&mut Memory<Vec<u8>>> {
         match &mut self.keeper {
             Keeper::Own(memory) => Some(memory),
@@ -87,7 +87,7 @@ impl Eeprom {
         }
     }
 
-    /// Did power go while it was written?
+    /// Returns whether the power failed during a write.
     pub(crate) fn is_cut(&self) -> bool {
         matches!(&self.keeper, Keeper::Own(memory) if memory.is_cut())
     }
@@ -113,7 +113,7 @@ impl Storage for Eeprom {
     fn erase(&mut self, offset: usize) -> Result<(), StorageError> {
         let page = self.geometry.page;
         match self.memory() {
-            // A copy of flash.
+            // The copy of a flash has no erasure: it writes FFh.
             Some(_) => self.write(offset, &vec![0xFF; page]),
             None => self.sound()?.erase(offset),
         }

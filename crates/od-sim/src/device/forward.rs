@@ -1,4 +1,4 @@
-//! Calls of a device, which go to its twin and to its node.
+//! Passes the calls of a device to its twin and to its node.
 
 use std::prelude::v1::*;
 
@@ -8,14 +8,14 @@ use crate::device::twin::{Before, Call, Twin};
 use crate::device::{Node, VirtualDevice};
 
 impl VirtualDevice {
-    /// With a twin. Do it before power comes.
+    /// The same device with a twin. Call it before the power is switched on.
     #[must_use]
     pub fn with_twin(mut self, twin: Box<dyn Twin>) -> Self {
         self.twin.0 = Some(twin);
         self
     }
 
-    /// Calls the node, after the twin, and takes its events.
+    /// Calls the twin, then the node, and collects the events of the node.
     pub(crate) fn call<R>(
         &mut self,
         now: Instant,

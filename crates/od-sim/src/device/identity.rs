@@ -13,8 +13,7 @@ use crate::device::behaviour::Behind;
 use crate::device::services::Services;
 
 impl VirtualDevice {
-    /// With this serial number in 1018h:04. Do it before
-    /// power comes.
+    /// The same device with this serial number in 1018h:04. Call it before the power is switched on.
     #[must_use]
     pub fn with_serial_number(mut self, serial_number: u32) -> Self {
         match &mut self.node.application.behind {
@@ -42,9 +41,9 @@ impl VirtualDevice {
         address
     }
 
-    /// Delivered with the node ID that it was made with: 1011h leads back to this one, and not to
-    /// the default of its dictionary. For a device with an object for its node ID (2101h); do it
-    /// before power comes.
+    /// The same device, whose factory value of the node ID is the one that it was made with: 1011h restores
+    /// it, and not the default of the dictionary. Only a device with an object for its node ID (2101h)
+    /// changes. Call it before the power is switched on.
     #[must_use]
     pub fn delivered(mut self) -> Self {
         if let Some(encoder) = self.node.application.encoder() {
@@ -55,9 +54,9 @@ impl VirtualDevice {
         self
     }
 
-    /// Delivered with its rotary switches at the node ID that it was made with, which then rule, and
-    /// its DIP switches at the bit rate of its dictionary. The switches end at 99; beyond that, and
-    /// without switches, it is [`delivered`](Self::delivered) with this node ID.
+    /// The same device, whose rotary switches set the node ID that it was made with, and whose DIP switches
+    /// set the bit rate of its dictionary. A device without switches, or with a node ID above 99, is only
+    /// [`delivered`](Self::delivered).
     #[must_use]
     pub fn with_node_switch(mut self) -> Self {
         if let Some(encoder) = self.node.application.encoder() {
@@ -101,16 +100,16 @@ impl VirtualDevice {
         )
     }
 
-    /// Whether it has a node ID; without one only LSS works (CiA 305).
+    /// Returns whether it has a node ID; without one only LSS works (CiA 305).
     pub fn is_configured(&self) -> bool {
         self.node.is_configured()
     }
 
-    /// Without a node ID at the first start: nothing but LSS, until a master gives it one
-    /// (CiA 305). Do it before power comes.
+    /// The same device without a node ID: it only supports LSS until a master gives it a node ID (CiA 305).
+    /// Call it before the power is switched on.
     ///
     /// # Errors
-    /// A sentence, if the device has no LSS slave, or one that always has a node ID.
+    /// A sentence: the device has no LSS slave, or its LSS slave always has a node ID.
     pub fn without_node_id(mut self) -> Result<Self, Refused> {
         if !self.profile().lss.is_some_and(|lss| lss.is_own()) {
             return Err(String::from(
@@ -122,8 +121,8 @@ impl VirtualDevice {
         Ok(self)
     }
 
-    /// The services that its EDS turns on, and those that it promises in vain; both empty for a
-    /// built-in device.
+    /// The services that its EDS enables, and those that its EDS promises but a node does not have; both are
+    /// empty for a built-in device.
     pub fn services(&self) -> &Services {
         &self.services
     }
@@ -161,7 +160,7 @@ impl VirtualDevice {
             store.set_unsigned(at, value);
         }
         if differs {
-            // Only the group of the object; a storage that fails keeps the default.
+            // This saves only the group of the object. If the storage fails, the default stays.
             let _ = image::save(storage, &store, profile, 4);
         }
     }

@@ -14,7 +14,7 @@ pub enum Led {
 }
 
 impl Led {
-    /// Every one.
+    /// All patterns.
     pub const ALL: [Self; 3] = [Self::Off, Self::Flashing, Self::On];
 
     /// `off`, `flashing`, `on`.
@@ -27,7 +27,7 @@ impl Led {
     }
 }
 
-/// The green die shows the NMT state, the red one what is wrong; they are independent
+/// The green die shows the NMT state, the red one errors; they are independent
 /// (MANUALS.md U-29, C-GX-39).
 pub(crate) fn dual(powered: bool, state: State, warning: bool, error: bool) -> (Led, Led) {
     if !powered {

@@ -1,12 +1,12 @@
-//! Values that a description leaves out, as a device has them.
+//! Fills in the values that a description leaves out.
 
 use std::prelude::v1::*;
 
 use od_eds::{Description, EntryDescription, Spanned, Value};
 use od_model::{Address, Kind};
 
-/// Gives values without a default the one of the standards, the number of `[DeviceInfo]`, or the limit that
-/// is nearest to 0: a simulated device is not to contradict its own description.
+/// Gives each value without a default the default of the standards, the number in `[DeviceInfo]`, or the limit that
+/// is nearest to 0, so that a simulated device does not contradict its own description.
 pub(crate) fn fill(description: &mut Description) {
     let info = |key| {
         let section = description.section("DeviceInfo")?;
@@ -45,7 +45,7 @@ fn standard(address: Address) -> Option<Value> {
     })
 }
 
-/// The limit that excludes 0.
+/// The limit that is nearest to 0; `None` if 0 is within the limits.
 fn nearest(entry: &EntryDescription) -> Option<Value> {
     let kind = entry.data_type.as_ref()?.value.kind();
     if !matches!(kind, Kind::Unsigned | Kind::Signed) {

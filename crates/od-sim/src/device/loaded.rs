@@ -18,13 +18,12 @@ use crate::device::source::{Loaded, Source};
 pub struct EdsOptions {
     /// The node ID; `None`: the one of the DCF, else 1.
     pub node_id: Option<NodeId>,
-    /// Runs what can be run of a text with errors.
+    /// Also runs a text with errors, as far as it can.
     pub lenient: bool,
 }
 
 impl VirtualDevice {
-    /// A device of an EDS or DCF text: CiA 301 to the letter, and an encoder behind it where
-    /// there is a position (6004h).
+    /// A device of an EDS or DCF text: CiA 301 without deviations, and an encoder if there is a position value (6004h).
     ///
     /// # Errors
     /// The diagnostics, if one of them is an error and `options` is not lenient.
@@ -33,7 +32,7 @@ impl VirtualDevice {
         device.ok_or(findings)
     }
 
-    /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
+    /// As [`from_eds`](Self::from_eds); also returns the findings of a text that runs.
     pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
         let mut parsed = od_eds::load(text);
         if !options.lenient && parsed.findings.iter().any(Finding::is_unsound) {
@@ -73,7 +72,7 @@ impl VirtualDevice {
     }
 }
 
-/// The LSS slave that an EDS asks for, with the bit rates of its [DeviceInfo] (MANUALS.md U-43).
+/// The LSS slave that an EDS declares, with the bit rates of its [DeviceInfo] (MANUALS.md U-43).
 fn lss(description: &Description) -> Option<LssProfile> {
     let named = description.lss_bit_rates()?;
     let mut lss = LssProfile::CIA305;

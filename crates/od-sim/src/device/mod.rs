@@ -3,13 +3,14 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `compiled`, `loaded` | a device that the compiler knows, of a file |
-//! | `role`, `described` | who is on the bus for it; a node of a real bus |
-//! | `source`, `behaviour`, `beside` | its dictionary; what it does; strings and DOMAINs at any length |
+//! | `role`, `described` | the node that it is on the bus: simulated, recorded, or real |
+//! | `source`, `behaviour`, `beside` | its dictionary, its behaviour; strings and DOMAINs of any length |
 //! | `eeprom`, `saved` | its non-volatile memory, and how it is seen from outside |
-//! | `world`, `pins`, `leds` | its shaft, switches, connections, LEDs, and what breaks |
+//! | `world`, `pins`, `leds` | its shaft, switches, faults, connections and LEDs |
 //! | `identity`, `own`, `view` | its serial number and LSS address; changes from its side; its values |
 //! | `forward`, `twin` | calls, and the other implementation that receives them, too |
-//! | `services`, `clock`, `programs`, `pdos`, `configured`, `left_out` | what an EDS says beside its objects |
+//! | `services`, `clock`, `programs`, `left_out` | other parts of a device of a file |
+//! | `pdos`, `configured` | its PDOs and its configuration as they are now |
 //! | `notice`, `size` | texts: events of the storage, numbers of bytes |
 
 pub(crate) mod behaviour;
@@ -69,9 +70,9 @@ pub(crate) type Node = od_runtime::Node<Loaded, Behaviour, Eeprom>;
 
 /// A CANopen device that lives in virtual time.
 ///
-/// Drain [`poll_transmit`](Self::poll_transmit) after every call that takes a moment;
-/// [`Bus`](crate::bus::Bus) does it for you. A copy continues as this device would, without its
-/// [twin](Self::with_twin), and with an EEPROM in memory.
+/// Call [`poll_transmit`](Self::poll_transmit) until it returns `None` after each call with `now`;
+/// [`Bus`](crate::bus::Bus) does it for you. A copy continues as this device would, but its EEPROM is in memory, and it
+/// has no [twin](Self::with_twin).
 #[derive(Clone)]
 pub struct VirtualDevice {
     title: String,
@@ -79,7 +80,7 @@ pub struct VirtualDevice {
     pub(super) services: Services,
     pub(super) wanted_id: NodeId,
     pub(super) wanted_rate: Option<u16>,
-    /// Time when the turning shaft is looked at again.
+    /// Time when the position of a turning shaft is checked again.
     look_at: Option<Instant>,
     /// The bit rate that LSS activated since the last start, in kbit/s.
     pub(super) activated: Option<u16>,
@@ -90,9 +91,9 @@ pub struct VirtualDevice {
     /// Channels on its shaft, as [`DeviceKind::channels`].
     channels: u8,
     pub(super) has_leds: bool,
-    /// Receives the calls of this device, too.
+    /// The twin, which also receives the calls of this device.
     pub(super) twin: Twins,
-    /// The node that is on the bus for it.
+    /// The node that it is on the bus.
     pub(super) role: Role,
 }
 
@@ -156,7 +157,7 @@ impl VirtualDevice {
         self.channels
     }
 
-    /// Another EEPROM, with what is in it. Do it before power comes.
+    /// The same device with another EEPROM and its content. Call it before the power is switched on.
     #[must_use]
     pub fn with_storage(mut self, storage: Box<dyn Storage + Send>) -> Self {
         self.node.storage = Eeprom::lent(storage);
@@ -164,16 +165,16 @@ impl VirtualDevice {
         self
     }
 
-    /// Sets the device up for this bit rate in kbit/s, as for a bus line: an EEPROM that is empty at
-    /// the first start contains it, if the device can save it.
+    /// Sets the bit rate of the bus line, in kbit/s: at its first start a device that can save a bit rate writes it
+    /// into an empty EEPROM.
     pub(crate) fn set_up_for(&mut self, rate: Option<u16>) {
         self.wanted_rate = rate;
     }
 
-    /// With this many bytes for each string and DOMAIN that a master writes, or those of its default
-    /// if that is longer. Without it a DOMAIN has 1 MiB, and a string what the file says: the length of
-    /// its default, 64 bytes at least. Only a device of a file has such values; returns whether it is
-    /// one. Do it before power comes.
+    /// Sets the limit of each string and DOMAIN that a master writes, in bytes; a longer default raises it. Before
+    /// this call the limit is 1 MiB for a DOMAIN, and for a string the length of its default, 64 bytes at least.
+    /// Returns whether the device comes from a file; only such a device has these values. Call it before the power
+    /// is switched on.
     pub fn set_domain_size(&mut self, bytes: u32) -> bool {
         #[cfg(feature = "eds")]
         if let Some(beside) = &mut self.node.application.beside {
@@ -184,17 +185,17 @@ impl VirtualDevice {
         false
     }
 
-    /// Bytes that an EEPROM of this device needs.
+    /// Size that an EEPROM for this device needs, in bytes.
     pub fn storage_needed(&self) -> usize {
         needed(self.dictionary(), self.profile())
     }
 
-    /// A name to show.
+    /// Name of the device, for a person.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// A frame was received.
+    /// Handles a frame from the bus.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         #[cfg(feature = "real")]
         if self.is_described() {
@@ -210,7 +211,7 @@ impl VirtualDevice {
         self.falls_dark(now);
     }
 
-    /// Time has passed.
+    /// Does the work that is due at `now`.
     pub fn handle_timeout(&mut self, now: Instant) {
         self.call(now, Call::Timeout, |node| node.handle_timeout(now));
         if self.look_at.is_some_and(|at| at <= now) {
@@ -221,19 +222,19 @@ impl VirtualDevice {
         self.falls_dark(now);
     }
 
-    /// Power that went while the EEPROM was written went for all.
+    /// Switches the device off if the power failed during a write to the EEPROM.
     fn falls_dark(&mut self, now: Instant) {
         if self.node.storage.is_cut() {
             self.power_off(now);
         }
     }
 
-    /// The CAN controller has news: error counters, bus-off, a lost frame.
+    /// Handles a change of the CAN controller: its error state, or a lost frame.
     pub fn handle_bus(&mut self, event: BusEvent, now: Instant) {
         self.call(now, Call::Bus(event), |node| node.handle_bus(now, event));
     }
 
-    /// Something outside the bus changed.
+    /// Tells the node that something outside the bus changed.
     pub(super) fn noticed(&mut self, now: Instant) {
         self.call(now, Call::Change, |node| node.handle_change(now));
         self.look_at = self.watches_shaft().then(|| now.plus_millis(1));
@@ -325,14 +326,14 @@ impl VirtualDevice {
         &self.node.device().profile
     }
 
-    /// The EEPROM takes no byte while the memory is broken.
+    /// Makes the EEPROM refuse writes while the fault of the memory is set.
     pub(super) fn break_storage(&mut self) {
         let encoder = self.node.application.encoder();
         self.node.storage.broken = encoder.is_some_and(|one| one.is_broken(Fault::Memory));
     }
 
-    /// Power comes. A device that keeps its node ID in 2101h and has an empty EEPROM starts
-    /// with the ID that it was made with.
+    /// Switches the power on. A device with an object for its node ID (2101h) and an empty EEPROM starts with the
+    /// node ID that it was made with.
     pub fn power_on(&mut self, now: Instant) {
         if self.is_powered() {
             return;
@@ -345,7 +346,7 @@ impl VirtualDevice {
         self.call(now, Call::PowerOn, |node| node.power_on(now));
     }
 
-    /// Boots up now, where the initialisation after power-on takes its time.
+    /// Ends an initialisation that takes time: the node boots up now.
     pub(crate) fn boot_at_once(&mut self, now: Instant) {
         self.call(now, Call::Boot, |node| node.boot_at_once(now));
     }
@@ -379,7 +380,7 @@ impl VirtualDevice {
 
     /// Handles the deadlines of the device until `to`, or until it has sent `frames` frames or reports an event; `now`
     /// becomes that time. Returns whether more deadlines may be due at `now`. `None`: each call has
-    /// to be seen, for example by a recorder.
+    /// to be made one by one, for example because a twin needs it.
     pub(crate) fn run(
         &mut self,
         now: &mut Instant,
@@ -411,7 +412,7 @@ impl VirtualDevice {
     }
 }
 
-/// The earlier of two moments, if there is one.
+/// The earlier of two moments; `None` if there is none.
 #[inline]
 fn earlier(one: Option<Instant>, other: Option<Instant>) -> Option<Instant> {
     match (one, other) {
@@ -420,7 +421,7 @@ fn earlier(one: Option<Instant>, other: Option<Instant>) -> Option<Instant> {
     }
 }
 
-/// Bytes of EEPROM for the values of a dictionary, and for what LSS stores beside them.
+/// Size of an EEPROM for the values of a dictionary and those that LSS stores, in bytes.
 fn needed(dictionary: Dictionary<'_>, profile: &Profile) -> usize {
     let own = match profile.lss {
         Some(lss) if lss.is_own() => image::OWN_CAPACITY,

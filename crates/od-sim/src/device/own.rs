@@ -1,4 +1,4 @@
-//! Changes from the side of a device: a value that it takes, an error that it reports.
+//! Changes that the device itself makes: a value that it sets, an error that it reports.
 
 use std::format;
 use std::prelude::v1::*;
@@ -13,12 +13,12 @@ use od_wire::nmt::State;
 use crate::device::VirtualDevice;
 use crate::device::twin::Call;
 
-/// Most errors of one device that can be active.
+/// Limit of active errors of one device.
 const ERRORS: usize = 32;
 
 impl VirtualDevice {
-    /// Sets a value from the side of the device, whether a master may write it or not. Event-driven
-    /// TPDOs follow.
+    /// Sets a value as the device itself does, even if a master may not write it. Event-driven TPDOs with the value
+    /// are sent.
     ///
     /// # Errors
     /// A sentence: the device is off or starting, it computes the value itself, or the object cannot
@@ -81,7 +81,7 @@ impl VirtualDevice {
         }
     }
 
-    /// Reports an error from now on: an EMCY message, 1001h and 1003h. Without `info` the
+    /// Reports an error: an EMCY message is sent, and 1001h and 1003h show the error. Without `info` the
     /// manufacturer-specific bytes are those of the family.
     ///
     /// # Errors

@@ -26,7 +26,7 @@ pub struct Pdo {
     pub number: u16,
     /// Value of its COB-ID object; `None` if the device has no such object, or no power.
     pub cob_id: Option<CobId>,
-    /// Mapping entries that fit.
+    /// Number of mapping entries for which there is room.
     pub room: u8,
     /// The mapping cannot be written.
     pub is_fixed: bool,
@@ -163,8 +163,7 @@ pub fn steps(mapping: u16, entries: &[MapEntry], cob_id: Option<CobId>) -> Vec<S
     steps
 }
 
-/// Is this an abort code that a device answers while the PDO is valid: the mapping cannot be
-/// changed now?
+/// Returns whether a server aborts with this code because a mapping cannot be changed while its PDO is valid.
 pub fn wants_pdo_disabled(code: u32) -> bool {
     matches!(
         AbortCode::from_code(code),

@@ -1,4 +1,4 @@
-//! Program download of a file's device (1F50h to 1F57h): a memory for each program that it names.
+//! Program download of a device of a file (1F50h to 1F57h): a memory for each sub-index of 1F50h.
 
 use std::prelude::v1::*;
 
@@ -8,10 +8,10 @@ use od_runtime::program::{self, MemoryFailed, Program, ProgramMemory};
 
 /// Bytes of a page.
 const PAGE: usize = 256;
-/// Most bytes of a program.
+/// Limit of a program, in bytes.
 const SIZE: u32 = 1 << 20;
 
-/// Memory that outlasts power, and takes room as a program comes.
+/// A memory that keeps its program without power, and grows with a download.
 #[derive(Clone, Default)]
 pub(crate) struct Memory {
     bytes: Vec<u8>,

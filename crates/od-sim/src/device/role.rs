@@ -1,4 +1,4 @@
-//! The node that is on the bus for a device: simulated, recorded, or a node of a real bus.
+//! The node that a device is on the bus: simulated, recorded, or a node of a real bus.
 //!
 //! All three are one type, because scripts, pages and masters treat them alike: only the calls of the bus differ.
 
@@ -19,7 +19,7 @@ use crate::recorded::play::Playing;
 #[cfg(feature = "real")]
 use crate::words::fold::Folder;
 
-/// The node that is on the bus for a device.
+/// The node that a device is on the bus.
 #[derive(Clone, Default)]
 pub(crate) enum Role {
     /// Its node.
@@ -45,7 +45,7 @@ pub(crate) struct Described {
     pub(crate) count: u32,
     /// The value of a download that is not confirmed.
     pub(crate) written: Option<(Address, Vec<u8>)>,
-    /// TPDOs by the values that were seen; `None`: to be looked up.
+    /// TPDOs according to the values that were seen; `None`: they have to be looked up.
     pub(crate) tpdos: Option<Vec<Tpdo>>,
 }
 

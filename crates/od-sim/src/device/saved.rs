@@ -1,5 +1,5 @@
-//! The EEPROM of a virtual device, seen from outside: its bytes, what it would bring back,
-//! and power that goes while it is written.
+//! The EEPROM of a virtual device, seen from outside: its bytes, the values that the next start loads,
+//! and power that fails during a write.
 
 use std::ops::Range;
 use std::prelude::v1::*;
@@ -28,13 +28,13 @@ impl Saved {
 }
 
 impl VirtualDevice {
-    /// The bytes of the EEPROM; empty where they cannot be read.
+    /// The bytes of the EEPROM; empty if they cannot be read.
     pub fn eeprom(&mut self) -> Vec<u8> {
         let storage = &mut self.node.storage;
         let mut bytes = vec![0; storage.capacity()];
         match storage.read(0, &mut bytes) {
             Ok(()) => bytes,
-            // Without power it still holds what it holds.
+            // A memory of this program can be read without power, too.
             Err(_) => match storage.memory() {
                 Some(memory) => memory.bytes().to_vec(),
                 None => Vec::new(),
@@ -42,16 +42,16 @@ impl VirtualDevice {
         }
     }
 
-    /// Puts bytes into the EEPROM, as far as it has room. They act at the next start.
+    /// Writes bytes into the EEPROM, as many as it has room for. The device loads them at the next start.
     pub fn set_eeprom(&mut self, bytes: &[u8]) {
         let storage = &mut self.node.storage;
         let len = bytes.len().min(storage.capacity());
-        // A memory that fails keeps what it has.
+        // A memory that fails keeps its bytes.
         let _ = storage.write(0, &bytes[..len]);
     }
 
-    /// Cuts the power when `bytes` more bytes have been written to the EEPROM and one more is
-    /// to be. Only an EEPROM of its own can be cut; returns whether this is one.
+    /// Lets the power fail at the first byte that is written to the EEPROM after `bytes` more bytes. Returns `false` for
+    /// an EEPROM whose bytes are in a storage of the caller: its power cannot be cut.
     pub fn cut_power_after(&mut self, bytes: usize) -> bool {
         let storage = &mut self.node.storage;
         let Some(memory) = storage.memory() else {
@@ -70,7 +70,7 @@ impl VirtualDevice {
         let mut values = vec![0; dictionary.store_len()];
         if let Ok(mut store) = Store::new(&dictionary, &mut values, self.node_id()) {
             profile.reset(&mut store, &|_| true);
-            // Nothing that can be read: the defaults come back.
+            // If nothing can be read, the defaults stay.
             let _ = image::load(&mut self.node.storage, &mut store, &profile, &|_| true);
         }
         Saved { values }
@@ -80,15 +80,15 @@ impl VirtualDevice {
     pub fn image(&mut self) -> Vec<u8> {
         let mut memory = Memory::new(vec![0xFF; self.node.storage.capacity()]);
         let profile = self.profile().store;
-        // Values that do not fit are lost, as they would be in the device.
+        // Values without room are lost, as in the device.
         let _ = self
             .node
             .look(|_, store| image::save(&mut memory, store, &profile, 1));
         memory.bytes().to_vec()
     }
 
-    /// The bytes that an object would have after a start: what was saved, else the default.
-    /// `None` if the object does not exist or is not saved.
+    /// The bytes of an object after a start: the saved value, otherwise the default. `None` if the object does not
+    /// exist or is not saved.
     pub(crate) fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
         let entry = self.dictionary().find(address).ok()?;
         let start = entry.slot.offset as usize;
@@ -97,14 +97,13 @@ impl VirtualDevice {
         saved.values.get(range).filter(|_| kept).map(<[u8]>::to_vec)
     }
 
-    /// Would this object have another value after a start than it has now? `None` where it is
-    /// no object that is saved.
+    /// Returns whether a start would change the value of an object. `None` for an object that is not saved.
     pub fn is_unsaved(&self, saved: &Saved, address: Address) -> Option<bool> {
         let range = self.saved_slot(address)?;
         Some(saved.values.get(range.clone()) != self.node.values().get(range))
     }
 
-    /// Place of the value of an object that is saved.
+    /// Place of the value of a saved object in the store.
     fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
         let dictionary = self.dictionary();
         let entry = dictionary.find(address).ok().filter(is_saved)?;

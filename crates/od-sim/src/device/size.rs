@@ -1,4 +1,4 @@
-//! A number of bytes as people write it.
+//! Reads a number of bytes with an optional unit.
 
 use od_model::values;
 

@@ -47,7 +47,7 @@ pub struct Before<'d> {
     pub is_powered: bool,
     /// The next deadline of the node.
     pub due: Option<Instant>,
-    /// The encoder behind the dictionary.
+    /// The encoder of the device, if it has one.
     pub encoder: Option<&'d Encoder<Shaft>>,
     /// The EEPROM.
     pub storage: &'d mut dyn Storage,

@@ -37,7 +37,7 @@ impl VirtualDevice {
                     now,
                     signals: &mut Signals::default(),
                 };
-                // A value that cannot be refreshed now is shown as it was.
+                // A value that cannot be refreshed now is shown as it was last.
                 let _ = behaviour.refresh(&mut context, address);
             }
             store.bytes(&entry, &mut [0; 8]).to_vec()

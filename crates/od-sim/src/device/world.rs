@@ -1,4 +1,4 @@
-//! The world around a device: its shaft, its switches, what breaks.
+//! The world around a device: its shaft, its switches, its faults.
 
 use std::prelude::v1::*;
 
@@ -16,16 +16,16 @@ const REVOLUTION: f64 = 4_294_967_296.0;
 pub struct ShaftView {
     /// Revolutions from the sensor's zero point.
     pub turns: f64,
-    /// Revolutions a minute, positive clockwise.
+    /// Revolutions per minute, positive clockwise.
     pub rpm: f64,
     /// The sensor's position in steps.
     pub raw: u64,
 }
 
 impl VirtualDevice {
-    /// The encoder behind the dictionary, if there is one.
+    /// The encoder of the device, if it has one.
     pub fn encoder(&self) -> Option<&Encoder<Shaft>> {
-        // The shaft of a real node is somewhere else.
+        // The bench does not know the shaft of a real node.
         #[cfg(feature = "real")]
         if self.is_described() {
             return None;
@@ -33,8 +33,7 @@ impl VirtualDevice {
         self.node.application.encoder()
     }
 
-    /// Changes something outside, and lets the device notice. Answers whether there is an
-    /// encoder at all.
+    /// Changes something outside the bus, and tells the node. Returns whether the device has an encoder.
     fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder<Shaft>)) -> bool {
         let Some(encoder) = self.node.application.encoder_mut() else {
             return false;
@@ -55,19 +54,19 @@ impl VirtualDevice {
         })
     }
 
-    /// The shaft as it is, for devices that share it.
+    /// The shaft as it is now, for devices that share it.
     pub(crate) fn shaft_now(&self) -> Option<Shaft> {
         Some(self.encoder()?.shaft.without_counter())
     }
 
-    /// Another device turned the shaft that this one sits on, too.
+    /// Takes over the angle and the speed of the shaft from another device on it.
     pub(crate) fn put_on_shaft(&mut self, shaft: &Shaft, now: Instant) {
         self.change(now, |encoder| encoder.shaft.follow(shaft));
     }
 
-    /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Positions that are
-    /// set at least every 20 ms are a movement with a speed of its own. Returns `false` if the
-    /// device has no shaft, as the next three do.
+    /// Turns the shaft to the first angle at which the sensor reports `raw`; its speed stays. Positions that are
+    /// set at least every 20 ms are a movement with a speed of its own. Returns whether the device has a shaft, as
+    /// the next four functions do.
     pub fn set_position(&mut self, raw: u64, now: Instant) -> bool {
         self.change(now, |encoder| {
             encoder.shaft.set_raw(now, encoder.sensor(), raw);
@@ -106,8 +105,8 @@ impl VirtualDevice {
         })
     }
 
-    /// Sets the rotary switches of the node ID, 0–99; 0 leaves it to the EEPROM. They are
-    /// read at the next start.
+    /// Sets the rotary switches of the node ID, 0–99; at 0 the node ID comes from the EEPROM. The device reads them
+    /// at the next start.
     pub fn set_node_switch(&mut self, number: u8, now: Instant) {
         self.change(now, |encoder| {
             let mut switches = encoder.switches();
@@ -116,8 +115,8 @@ impl VirtualDevice {
         });
     }
 
-    /// Sets the DIP switches of the bit rate, 0–7. They are read at the next start, and only
-    /// where the rotary switches are not 0.
+    /// Sets the DIP switches of the bit rate, 0–7. The device reads them at the next start, and only if the rotary
+    /// switches are not at 0.
     pub fn set_bitrate_switch(&mut self, number: u8, now: Instant) {
         self.change(now, |encoder| {
             let mut switches = encoder.switches();
@@ -141,7 +140,7 @@ impl VirtualDevice {
         }
     }
 
-    /// The names of what can break in this device.
+    /// Names of the faults that this device supports.
     pub fn faults(&self) -> Vec<&'static str> {
         let known = Fault::NAMES.iter();
         known
@@ -165,15 +164,15 @@ impl VirtualDevice {
         }
     }
 
-    /// The bit rate in kbit/s, where the device has one of its own: that of the last start, or
-    /// what LSS activated since.
+    /// The bit rate in kbit/s: the one that LSS has activated since the last start, otherwise that of the start. `None`
+    /// for a device without a bit rate of its own.
     pub fn bit_rate(&self) -> Option<u16> {
         self.activated
             .or_else(|| self.encoder().and_then(Encoder::bit_rate))
     }
 
-    /// Bit rate in kbit/s of a code of the device (2100h), or without an object for it, of an index of
-    /// the LSS table.
+    /// Bit rate in kbit/s of a code of the object for the bit rate (2100h), or of an index of the LSS table if the device has
+    /// no such object.
     pub(crate) fn bit_rate_of(&self, code: u8) -> Option<u16> {
         if self.profile().lss.is_some_and(|lss| lss.is_own()) {
             return od_wire::lss::kbit(code);
@@ -187,8 +186,8 @@ impl VirtualDevice {
         rate.filter(|rate| *rate != 0)
     }
 
-    /// While a shaft turns, a device whose PDOs follow their values looks at it every
-    /// millisecond.
+    /// Returns whether the device has to check its shaft every millisecond: the shaft turns, and its PDOs are sent when
+    /// their values change.
     pub(crate) fn watches_shaft(&self) -> bool {
         let turns = |encoder: &Encoder<Shaft>| encoder.shaft.is_turning();
         self.profile().pdo.event_on_change && self.encoder().is_some_and(turns)
