@@ -62,7 +62,7 @@ pub struct Once<T>(UnsafeCell<T>, AtomicBool);
 unsafe impl<T> Sync for Once<T> {}
 
 impl<T> Once<T> {
-    /// A value that nobody has taken.
+    /// A value that was not taken yet.
     pub const fn new(value: T) -> Self {
         Self(UnsafeCell::new(value), AtomicBool::new(false))
     }

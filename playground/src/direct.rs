@@ -74,7 +74,7 @@ impl Bus {
         .value())
     }
 
-    /// Takes a device off the bus; the numbers of later devices go down by one.
+    /// Removes a device from the bus; the numbers of later devices decrease by one.
     #[wasm_bindgen(js_name = removeDevice)]
     pub fn remove_device(&mut self, device: usize) {
         self.acting().remove(device);
@@ -94,8 +94,7 @@ impl Bus {
             .map_or(0, |device| device.node_id().raw())
     }
 
-    /// Sends a frame at the present moment. Only the number of bytes of a remote
-    /// frame counts.
+    /// Sends a frame at the present moment. A remote frame has no data: `data` gives its DLC by its length.
     pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
         if let Some(frame) = frame(id, data, extended, remote) {
             self.acting().send(&frame);

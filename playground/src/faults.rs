@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::crossing::{Crosses, record};
 
-/// Most frames of a probe that are shown.
+/// Maximum number of frames of a probe that are shown.
 const SHOWN: usize = 200;
 
 record! {

@@ -25,8 +25,8 @@ pub(crate) struct Device {
 }
 
 impl Device {
-    /// Changes something beside the bus, and wakes the waiting threads. `line` is its line in a script, or what
-    /// scripts do not have; it counts if the change `is_done`.
+    /// Changes something beside the bus, and wakes the waiting threads. `line` is the change as a line of a script, or the
+    /// name of a change that scripts do not have; the bench records it if the change `is_done`.
     fn act<R>(
         &self,
         py: Python<'_>,
@@ -370,8 +370,8 @@ impl Device {
         to_python(py, data_type, &bytes)
     }
 
-    /// Sets the value of an object from the side of the device, also of a read-only object.
-    /// Event-driven TPDOs follow. Types and limits are those of the object.
+    /// Sets the value of an object as the device itself does, also of a read-only object.
+    /// Event-driven TPDOs with it are sent. Types and limits are those of the object.
     ///
     /// Raises `ValueError` if the object does not exist, the device computes it, or the value is not
     /// valid for it.

@@ -40,7 +40,7 @@ pub(crate) const NAP: Duration = Duration::from_millis(2);
 pub(crate) const LOOK: Duration = Duration::from_millis(10);
 /// Maximum time that passes on the bus in one step, in ms: without frames a step costs up to 1 ms per second.
 const STEP: u64 = 10_000;
-/// Number of steps after which a thread that is alone lets other threads of Python run.
+/// Number of steps after which the only thread on a bus lets other threads of Python run.
 const ALONE: u32 = 64;
 
 /// Waits until `done` or until `wait` is over. `done` is called after each event; frames

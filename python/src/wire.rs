@@ -15,8 +15,8 @@ use crate::faults::Fault;
 use crate::party::{Party, Seen, compete};
 use crate::state::State;
 
-/// A bus with a name. Its lock is held with the interpreter attached, and never while a thread
-/// waits, so that a fork finds it free; but a thread that is alone on its bus holds it without.
+/// A bus with a name. A thread holds its lock only with the interpreter attached, and never while it waits, so that a
+/// fork finds it free. The only thread on a bus may hold it without the interpreter.
 pub(crate) struct Wire {
     /// The name by which python-can buses share it.
     pub(crate) name: String,

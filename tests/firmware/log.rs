@@ -19,7 +19,7 @@ const SAMPLES: u64 = 2000;
 /// Maximum time in microseconds between two positions of one movement.
 const MOVEMENT: u64 = 20_000;
 
-/// Bytes of an answer before its frames: state, node ID, hash of the events, next deadline.
+/// Bytes of a response before its frames: state, node ID, hash of the events, next deadline.
 pub(crate) const HEAD: usize = 14;
 
 /// A frame in the log: CAN-ID, DLC, data.
@@ -41,9 +41,9 @@ pub(crate) struct Answer {
 pub(crate) struct Log {
     /// All calls, one after another.
     pub(crate) bytes: Vec<u8>,
-    /// Place in `bytes` of each call that has an answer.
+    /// Place in `bytes` of each call that has a response.
     pub(crate) calls: Vec<usize>,
-    /// The answers.
+    /// The responses.
     pub(crate) answers: Vec<Answer>,
     /// The shaft at the last call.
     last: Option<Last>,
@@ -54,8 +54,8 @@ pub(crate) struct Log {
     world: Option<[u8; 4]>,
     /// The EEPROM when power was switched off.
     eeprom: Vec<u8>,
-    /// Values in `rest` that may differ: speeds and accelerations at the end of the log, which
-    /// no frame read.
+    /// Values in `rest` that may differ: speeds and accelerations at the end of the log, because
+    /// no frame reads them.
     pub(crate) loose: Vec<usize>,
 }
 
@@ -69,7 +69,7 @@ struct Last {
     powered: bool,
 }
 
-/// The twin of a device: it writes a log, which the caller also has.
+/// A twin of a device: it writes the calls into a log that it shares with the caller.
 pub(crate) struct Writer(pub Arc<Mutex<Log>>);
 
 impl Twin for Writer {
@@ -101,7 +101,7 @@ impl Log {
         self.bytes.extend(what);
     }
 
-    /// Adds the answer to the last call.
+    /// Adds the response to the last call.
     fn close(&mut self, device: &Before<'_>) {
         let events = std::mem::take(&mut self.events);
         if self.answers.len() < self.calls.len() {
@@ -214,7 +214,7 @@ impl Log {
                 self.sample(&last, now);
             }
             if turned != sample {
-                // A shaft that is moved again and again turns.
+                // A shaft that is moved again within this time turns; one that is moved once jumps.
                 let moves = |at: Instant| at < now && now.micros_since(at) <= MOVEMENT;
                 letter = Some(if jumped.is_some_and(moves) {
                     b'S'
@@ -252,7 +252,7 @@ impl Log {
         }
     }
 
-    /// Adds the values of the device and its EEPROM to the last response, that to
+    /// Adds the values of the device and its EEPROM to the last response, which belongs to
     /// [`Call::End`].
     pub(crate) fn end(&mut self, device: &mut VirtualDevice, now: Instant) {
         let addresses: Vec<_> = (device.dictionary().entries().iter())

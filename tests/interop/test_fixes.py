@@ -1,4 +1,4 @@
-"""python-canopen and dcf-tools read after the safe fixes of a file what they read before."""
+"""Safe fixes lose nothing: python-canopen and dcf-tools still read every value that they read before."""
 
 import logging
 import os
@@ -15,7 +15,7 @@ import tools
 
 ODKIT = bench.odkit()
 MUTANTS = 5000 if "ODKIT_LONG" in os.environ else 300
-# The ordinary run has python-canopen alone. dcf-tools does not come to an end with some mutants; for these,
+# The ordinary run has only python-canopen. dcf-tools never ends with some mutants; for these,
 # `tests/tests/witness.rs` has a reader that reads as dcf-tools does.
 WITNESSES = [tool for tool, module in (("python-canopen", "canopen"), ("dcf-tools", "dcf")) if find_spec(module)]
 
@@ -38,7 +38,7 @@ class SafeFixes(unittest.TestCase):
                 copies.append(copy)
             before = {tool: [tools.reading(tool, copy) for copy in copies] for tool in witnesses}
             for at in range(0, len(copies), 100):
-                # The exit code tells of errors that no fix corrects.
+                # The exit code is not checked: it is 1 if a file has errors without a fix.
                 subprocess.run([ODKIT, "check", "--fix", *copies[at:at + 100]], capture_output=True)
             for tool, readings in before.items():
                 for path, copy, was in zip(files, copies, readings):

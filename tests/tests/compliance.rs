@@ -135,7 +135,7 @@ fn object(word: &str) -> Option<u32> {
         .flatten()
 }
 
-/// The clauses behind the first up to the last one, which differ in their last number.
+/// The clauses after the first, up to the last one, which differ in their last number.
 fn between(first: &str, last: &str) -> Vec<String> {
     let parts = |clause: &str| {
         let (chapter, number) = clause.rsplit_once('.')?;
@@ -314,7 +314,7 @@ fn documented(text: &str) -> Vec<(Option<&str>, String)> {
     found
 }
 
-/// The name that a line declares: behind `fn`, `struct` and others, or its first word.
+/// The name that a line declares: after `fn`, `struct` and others, or its first word.
 fn item(line: &str) -> &str {
     let declared = line.split(": ").next().unwrap_or(line);
     let mut words = declared.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');

@@ -5,8 +5,8 @@
 //!    `core/` in there: the page begins with that,
 //! 3. `npm run build` bundles the page into `playground/web/dist/`.
 //!
-//! [`page`] makes the small page that is released and tested. [`quick`] makes one to play with: one module, which
-//! takes both places, of a profile that compiles soon, without wasm-opt.
+//! [`page`] makes the small page that is released and tested. [`quick`] makes one to play with: one module for
+//! both folders, in a profile that compiles quickly, without wasm-opt.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,8 +22,8 @@ use crate::repo::{self, Repo};
 use crate::setup::{SetupLock, binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The size of the download counts more than the last bit of speed. All modules are of one profile, so
-/// that they share the crates that they have in common, and what runs while those are compiled.
+/// The size of the download is more important than the speed. All modules have one profile, so that common crates,
+/// macros and build scripts are compiled only once.
 pub(crate) const RELEASE: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s");
 
 /// The profile of [`quick`], in Cargo.toml.
@@ -35,8 +35,9 @@ struct Module {
     folder: &'static str,
     /// Its package, and its library.
     package: (&'static str, &'static str),
-    /// Optimisation options of wasm-opt, `None` for the profile that compiles soon. In the order of their names, functions
-    /// of one type are neighbours: the core is 1 % smaller after gzip. It goes without the sections that only tools read.
+    /// Optimisation options of wasm-opt, `None` for the profile that compiles quickly. Functions sorted by their names
+    /// make the core 1 % smaller after gzip, since those of one type are neighbours. Sections that only tools read are
+    /// removed.
     level: Option<&'static str>,
     what: &'static str,
 }

@@ -214,7 +214,7 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
         command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
         // The other lanes use the processors, and each codegen unit has a cost.
         command.env("CARGO_PROFILE_DEV_CODEGEN_UNITS", "2");
-        // Of macros and what they need, too: then some crates are the same for them and for the tests.
+        // The same for macros and their dependencies, which then share crates with the tests.
         command.env("CARGO_PROFILE_DEV_BUILD_OVERRIDE_CODEGEN_UNITS", "2");
         command.env("CARGO_PROFILE_RELEASE_BUILD_OVERRIDE_CODEGEN_UNITS", "2");
     }
@@ -222,7 +222,7 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// Returns the same command behind `nice`, if `nice` exists.
+/// Returns the same command, started by `nice` if it exists.
 fn nice(command: &Command) -> Option<Command> {
     let mut nice = Command::new(which("nice")?);
     nice.args(["-n", "5"]).arg(command.get_program());

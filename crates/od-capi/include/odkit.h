@@ -508,7 +508,7 @@ uint32_t odkit_get(odkit_node node,
 
 /*
  Sets a value, also of a read-only object; limits and rules are those for a master.
- Event-driven TPDOs follow. In a callback limits are not checked, and `now_us` is
+ Event-driven TPDOs with it are sent. In a callback limits are not checked, and `now_us` is
  ignored.
  */
 uint32_t odkit_set(odkit_node node,

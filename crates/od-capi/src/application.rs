@@ -1,4 +1,4 @@
-//! Behaviour behind callbacks.
+//! The application of a node, whose behaviour is the callbacks of the firmware.
 #![allow(unsafe_code)]
 
 use odkit::{AbortCode, Address, Application, Context, Instant, NodeId, Reset, Store};

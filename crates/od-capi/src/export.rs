@@ -150,7 +150,7 @@ macro_rules! export {
         }
 
         /// Sets a value, also of a read-only object; limits and rules are those for a master.
-        /// Event-driven TPDOs follow. In a callback limits are not checked, and `now_us` is
+        /// Event-driven TPDOs with it are sent. In a callback limits are not checked, and `now_us` is
         /// ignored.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_set(

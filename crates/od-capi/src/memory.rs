@@ -1,4 +1,4 @@
-//! Non-volatile memory behind callbacks.
+//! Non-volatile memory that callbacks of the firmware read and write.
 #![allow(unsafe_code)]
 
 use core::ffi::c_void;

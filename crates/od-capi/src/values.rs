@@ -1,4 +1,4 @@
-//! Values and errors from the side of the firmware, in a callback or outside.
+//! Values and errors that the firmware sets, in a callback or outside.
 #![allow(unsafe_code)]
 
 use core::ffi::c_void;

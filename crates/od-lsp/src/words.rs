@@ -165,7 +165,7 @@ fn error_code(profile: Option<u16>, code: u16) -> String {
     format!("{code:04X}h: {}", od_wire::emcy::text(profile, code))
 }
 
-/// A transmission type of a PDO (CiA 301, chapter 7.5.2.37).
+/// The transmission type of an RPDO or a TPDO (CiA 301, chapters 7.5.2.35 and 7.5.2.37).
 pub(crate) fn transmission(index: u16, number: u32) -> Option<String> {
     let kind = TransmissionType::new(number.try_into().ok()?);
     let is_rpdo = index < 0x1800;

@@ -78,7 +78,7 @@ pub(crate) enum Cursor<'a> {
     Value(&'a str, Range<usize>),
 }
 
-/// The start tag at a byte, behind the name of its element.
+/// The start tag at a byte that is after the name of its element.
 pub(crate) fn tag(text: &str, offset: usize) -> Option<Tag<'_>> {
     let start = text.get(..offset)?.rfind('<')?;
     let typed = text.get(start + 1..offset)?;

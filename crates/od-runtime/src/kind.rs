@@ -23,7 +23,7 @@ pub struct DeviceKind {
     pub dictionary: Dictionary<'static>,
     /// Options and deviations of its family relative to CiA 301.
     pub profile: &'static Profile,
-    /// Behaviour behind the dictionary.
+    /// Its behaviour.
     pub behaviour: Behaviour,
     /// Whether it has the dual LED of the bus cover.
     pub leds: bool,
@@ -32,7 +32,7 @@ pub struct DeviceKind {
     pub channels: u8,
 }
 
-/// Behaviour of a product behind its dictionary.
+/// The behaviour of a product.
 #[derive(Clone, Copy, Debug)]
 pub enum Behaviour {
     /// An encoder with these options and deviations relative to CiA 406. The host supplies its

@@ -211,7 +211,7 @@ impl LssProfile {
         shows_state: false,
     };
 
-    /// Returns whether the image, and not objects, contain node ID and bit rate.
+    /// Returns whether the image contains node ID and bit rate, and not objects.
     pub const fn is_own(&self) -> bool {
         self.node_id.index == 0
     }

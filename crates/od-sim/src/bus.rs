@@ -378,7 +378,7 @@ impl Bus {
         }
     }
 
-    /// Collects the frames of a device and passes them to the others, whose responses follow in the
+    /// Collects the frames of a device and passes them to the others, then the responses of those in the
     /// same way.
     fn pass_on(&mut self, device: usize) {
         if self.line.is_real() {

@@ -23,7 +23,7 @@ use od_wire::Frame;
 const LONGEST: usize = 2 * 1024 * 1024;
 /// The message of signals that belong to no frame.
 const NO_FRAME: &str = "VECTOR__INDEPENDENT_SIG_MSG";
-/// Most digits after the point of a value.
+/// Maximum number of digits after the point of a value.
 const MOST_DIGITS: usize = 9;
 
 /// The messages of a DBC file.

@@ -2,7 +2,7 @@
 //! scenario scripts, and the protocols of adapters and daemons.
 //!
 //! Like the runtime it has no clock, thread, socket or file of its own; they are arguments. So the
-//! same bench runs behind `odkit`, in a test and in a browser's worker. Clock, threads and sockets
+//! same bench runs in `odkit`, in a test and in a browser's worker. Clock, threads and sockets
 //! are only in `serve` (feature `serve`), which runs a bench in real time.
 
 #![forbid(unsafe_code)]

@@ -244,7 +244,7 @@ impl Values {
         let last = self.0.get(&cob_id).cloned().or(before.clone().ok());
         if let Ok(Ok(raw)) = before.as_deref().map(<[u8; 4]>::try_from) {
             let raw = u32::from_le_bytes(raw) | NOT_VALID;
-            // If the COB-ID of a device is fixed, the other values are written all the same.
+            // If the COB-ID of a device is fixed, the other values are still written.
             put(master, cob_id, &raw.to_le_bytes())?;
         }
         if self.0.keys().any(|address| address.index == mapping) {

@@ -62,7 +62,7 @@ impl Application for Heater {
     }
 }
 
-/// A node without power, whose saved values are in a file.
+/// A node that is still switched off; its saved values are in a file.
 pub(crate) fn node(path: &str) -> Result<thermometer::Node<Heater, File>, OpenError> {
     let file = File::of(path, &thermometer::DICTIONARY)?;
     Ok(Node::new(thermometer::Device, NodeId::ONE, Heater, file))

@@ -80,8 +80,8 @@ impl ProgramMemory for Flash {
     }
 }
 
-// What the master has: a vector table, code that does not depend on its place, and bytes to make it
-// longer than one block. It is at home where the memory begins.
+// The program that the master writes: a vector table, code that does not depend on its place, and bytes that make it
+// longer than one block. It runs at the beginning of the memory.
 global_asm!(
     ".syntax unified",
     ".section .script, \"a\"",

@@ -83,7 +83,7 @@ odkit::object_dictionary! {
     }
 }
 
-/// CiA 301 to the letter.
+/// CiA 301 without deviations.
 static PROFILE: Profile = Profile {
     lss: if cfg!(feature = "lss") {
         Some(LssProfile::CIA305)

@@ -8,14 +8,14 @@
 //! | `E` | the EEPROM has these bytes | as many as it has |
 //! | `W` | switches and faults | node ID, bit rate, a bit for each fault (2) |
 //! | `S` | a sample of the shaft | 2⁻³² revolutions (8) |
-//! | `J` | the same, of a shaft that was moved in no time | 2⁻³² revolutions (8) |
-//! | `+`, `-` | power comes, goes | |
+//! | `J` | the same, of a shaft that jumped | 2⁻³² revolutions (8) |
+//! | `+`, `-` | power on, power off | |
 //! | `F` | a frame | CAN-ID (4, bit 31: 29 bits), DLC with bit 7 for a remote frame, data (8) |
 //! | `T`, `C`, `I` | time-out, change outside, initialisation ends | |
-//! | `B` | the CAN controller has news | 0 to 4: active, warning, passive, off, overrun |
-//! | `V` | a value from the side of the device | index (2), sub-index, length, value |
-//! | `X` | an error from the side of the device | code (2), register, information (5), 1 if it comes |
-//! | `D` | all values and the EEPROM are asked for | |
+//! | `B` | the state of the CAN controller changes | 0 to 4: active, warning, passive, off, overrun |
+//! | `V` | the device sets a value | index (2), sub-index, length, value |
+//! | `X` | the device reports an error | code (2), register, information (5), 1 if the error begins |
+//! | `D` | all values and the EEPROM are requested | |
 //!
 //! Each call except the first five has an answer: state, node ID, hash of the events (4), next
 //! deadline in microseconds (8), ticks of the clock (4), number of frames, and the frames as above.

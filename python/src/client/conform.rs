@@ -59,7 +59,7 @@ pub(crate) struct Record {
     reason: String,
     /// Values that were changed and restored, and those that could not be restored.
     notes: Vec<String>,
-    /// The frames, one text a line: time, direction, frame, and its meaning in words.
+    /// The frames, one text per line: time, direction, frame, and its meaning in words.
     frames: Vec<String>,
     /// Its duration, in seconds of the link's clock.
     seconds: f64,

@@ -12,7 +12,7 @@ use crate::files;
 pub(super) const SUMS: &str = "SHA256SUMS";
 const README: &str = "README.md";
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
-/// Most files of a folder that the README names; a folder with more becomes one line.
+/// Maximum number of files of a folder that the README lists one by one; a folder with more has one line.
 const NAMED: usize = 20;
 
 /// Writes README, licences and checksums for the existing parts; each part has a name and a content.

@@ -29,12 +29,12 @@ pub(crate) fn get(repo: &Repo, console: &Console, package: &Package) -> Result<P
     let mut install = cargo(&repo.root, &["install", "--locked", name]);
     install.args(["--version", version]).args(*args);
     install.arg("--root").arg(&place);
-    // Nobody else needs what it is built of.
-    let built_in = repo.tools().join(name).join("target");
-    install.arg("--target-dir").arg(&built_in);
+    // Only this program needs the crates that are compiled there.
+    let compiled = repo.tools().join(name).join("target");
+    install.arg("--target-dir").arg(&compiled);
     let what = format!("installing {name} (once, some minutes)");
     let built = console.run(&what, &mut install);
-    let _ = std::fs::remove_dir_all(built_in);
+    let _ = std::fs::remove_dir_all(compiled);
     match built {
         Ok(()) => Ok(tool),
         Err(why) => Err(Error::Missing(format!(

@@ -149,7 +149,7 @@ fn explain(name: &str, why: &str, (log, place): (&str, &Path), command: &str) {
 /// The lines of a log that name the first failures and their reasons, at most five.
 fn matters<'a>(lines: &[&'a str]) -> Vec<&'a str> {
     const MOST: usize = 5;
-    // By rustc and xtask; by a Rust test and the line behind it; by Node; by unittest and pytest.
+    // By rustc and xtask; by a Rust test and the line after it; by Node; by unittest and pytest.
     let begins = ["error", "not ok ", "E  ", "FAIL:", "ERROR:", "FAILED "];
     let is_reason = |line: &str| {
         let line = line.trim_start();

@@ -60,7 +60,7 @@ impl Checked {
     }
 }
 
-/// The column behind a span, in characters.
+/// The column after a span, in characters.
 pub(super) fn end_column(text: &str, span: Span) -> usize {
     let part = text.get(span.start as usize..span.end as usize);
     span.column as usize + part.map_or(0, |part| part.chars().count())

@@ -15,8 +15,8 @@ use crate::write::describe::section;
 use od_model::{Access, DataType, ObjectCode};
 
 /// Returns the DCF of the master: it receives each TPDO of the nodes, and sends each of their RPDOs.
-/// The nodes have the values after their writes ([`Node::apply`]). `remote` adds the PDOs of the nodes, 5800h to 5FFFh, by
-/// which a driver of Lely core finds a value of a node in the PDOs of the master.
+/// The writes are already in the values of the nodes ([`Node::apply`]). `remote` adds 5800h to 5FFFh, the PDOs of the
+/// nodes: a driver of Lely core needs them to find a node's value in the PDOs of the master.
 pub fn dcf(master: &Master, nodes: &[Node], remote: bool) -> Description {
     let mut made = Description::default();
     let [vendor, product, revision, serial] = master.identity;
@@ -151,7 +151,7 @@ fn communication(made: &mut Description, master: &Master, nodes: &[Node]) {
     }
     let errors = ("Pre-defined error field", Unsigned32, Access::Ro);
     array(made, 0x1003, errors, (254, 0), &[]);
-    // There is no error yet; a master clears the list by writing 0.
+    // The list of errors is empty; an application clears it by writing 0.
     if let Some(object) = made.objects.get_mut(&0x1003) {
         let count = value("Number of errors", Unsigned8, rw, unsigned(0));
         object.entries.insert(0, count);

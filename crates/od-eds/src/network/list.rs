@@ -205,7 +205,7 @@ fn meant(key: &str) -> Option<String> {
     Some(format!("Node{number}{end}"))
 }
 
-/// The part of a node's key behind its number.
+/// The part of a node's key after its number.
 #[derive(Clone, Copy)]
 enum What {
     Present,

@@ -58,7 +58,7 @@ pub(crate) enum Fault<'a> {
     NoSection { line: Span, key: &'a str },
     /// A line that is too long; ignored.
     Long(Span),
-    /// The first header or key that is too many; ignored, and everything behind it.
+    /// The first header or key beyond the limit; it is ignored with everything after it.
     Many {
         at: Span,
         most: usize,

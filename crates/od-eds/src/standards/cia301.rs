@@ -315,7 +315,7 @@ const TABLE: &[Standard] = &[
     array(0x1F26, "expected configuration date", Unsigned32, Rw).needs(0x1F27),
     array(0x1F27, "expected configuration time", Unsigned32, Rw).needs(0x1F26),
     array(0x1F50, "program data", Domain, Wo),
-    // A device whose boot loader has 1F50h may have it alone, to start the boot loader.
+    // A device may have it without 1F50h: a master starts the boot loader with it, and only the boot loader has 1F50h.
     array(0x1F51, "program control", Unsigned8, Rw),
     array(0x1F53, "expected software date", Unsigned32, Rw).needs(0x1F54),
     array(0x1F54, "expected software time", Unsigned32, Rw).needs(0x1F53),

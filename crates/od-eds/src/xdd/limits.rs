@@ -82,7 +82,7 @@ fn find(text: &str, from: usize, what: &str) -> Option<usize> {
 
 /// A tag of an element.
 struct Tag {
-    /// The byte behind it.
+    /// The byte after it.
     end: usize,
     attributes: usize,
     /// Bytes of its longest value.

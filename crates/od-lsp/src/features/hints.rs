@@ -45,7 +45,7 @@ pub(crate) fn of(file: &File, seen: &Seen, within: &Range<usize>) -> Vec<InlayHi
     let fields = fields.filter(|(_, field)| inside(field));
     let in_xdd = fields.filter_map(|(element, field)| {
         let hint = of_field(file.str(), description, element, field)?;
-        // Behind the closing quotation mark.
+        // After the closing quotation mark.
         Some(shown(field.value.end + 1, hint))
     });
     hints.chain(in_xdd).collect()

@@ -14,7 +14,7 @@ use crate::xdd;
 
 /// Subject of a place.
 enum Target {
-    /// An object, or one of its sub-objects.
+    /// An object, or one of its sub-objects (`true`).
     Object(Address, bool),
     /// A COB-ID, and the value that holds it.
     Cob(Address, CobId, Range<usize>),
@@ -41,7 +41,7 @@ fn target(file: &File, seen: &Seen, offset: usize) -> Option<Target> {
                 return Some(Target::Object(Address::new(index, 0), false));
             }
             if file.kind == Kind::Overlay {
-                // The places of its values are those in the text of base and overlay.
+                // The description is that of base and overlay together: its places are not those of this file.
                 return None;
             }
             let mut ids = cob_ids::all(&seen.description);
@@ -86,7 +86,7 @@ fn describes(seen: &Seen, offset: usize) -> Option<Place> {
     }
 }
 
-/// Returns whether a mapping contains several sub-objects.
+/// Returns whether a mention is about one sub-object: a mapping entry for an object that has sub-objects.
 fn is_sub(seen: &Seen, mention: &Mention) -> bool {
     let object = seen.description.objects.get(&mention.object.index);
     mention.what == What::Mapping && object.is_some_and(|object| object.code.has_members())
@@ -102,7 +102,7 @@ pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<u
         None => Vec::new(),
         Some(Target::Object(at, is_sub)) => {
             let own = Place::Member(at.index, at.sub);
-            // From a sub-object to its object.
+            // The header of a sub-object leads to its object.
             let from_own = describes(seen, offset) == Some(own);
             let header = described(seen, own).filter(|_| is_sub && !from_own);
             let header = header.or_else(|| described(seen, Place::Object(at.index)));
@@ -191,7 +191,7 @@ fn of_object(
     found
 }
 
-/// The values of DataType with the name of a type of the file.
+/// The values of DataType that are the index of a type which the file defines (0040h to 025Fh).
 fn typed<'a>(
     file: &'a File,
     seen: &'a Seen,

@@ -1,4 +1,4 @@
-//! The encoder as the [`Application`] behind a node.
+//! The encoder as the [`Application`] of a node.
 
 use od_model::{Address, Kind};
 

@@ -85,8 +85,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.keep_at
     }
 
-    /// Returns the bit rate of a start in kbit/s: that of the DIP switches if the rotary switches set
-    /// the node ID and their position has a bit rate (MANUALS.md C-GX-35), else that of the object.
+    /// Returns the bit rate at a start, in kbit/s. If the rotary switches set the node ID, the DIP switches
+    /// set the bit rate (MANUALS.md C-GX-35), unless their position has none; otherwise the object sets it.
     fn starting_bit_rate(&self, store: &Store<'_>) -> Option<u16> {
         let profile = self.profile();
         let by_switch = match self.switches.node_id {

@@ -20,7 +20,7 @@ pub struct Switches {
     pub bit_rate: u8,
 }
 
-/// Behaviour behind the dictionary of an encoder.
+/// The behaviour of an encoder: the application of its node.
 ///
 /// The host sets switches and reports faults between calls of the node; after a change of
 /// faults it calls [`Node::handle_change`](crate::Node::handle_change).

@@ -54,9 +54,9 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         });
     }
 
-    /// Sets a value from the side of the device. Limits and rules are those of a master's download,
-    /// but the access type does not count, so read-only objects change, too. Event-driven TPDOs
-    /// follow.
+    /// Sets a value as the device itself does. Limits and rules are those of a master's download,
+    /// but the access type is ignored, so read-only objects change, too. Event-driven TPDOs with
+    /// the value are sent.
     ///
     /// # Errors
     /// The abort code of the download; `ReadOnly` for an object without memory for its value

@@ -8,7 +8,7 @@
 //! Call `poll_transmit` until it returns `None` after every input, then sleep until `poll_timeout`
 //! or the next frame. The outputs depend only on the inputs and their order.
 //!
-//! - [`input`]: a frame, a moment, a change from the side of the device, and the service that handles it.
+//! - [`input`]: a frame, a moment, a change that the device itself makes, and the service that handles it.
 //! - [`output`]: frames, the next deadline, events.
 //! - [`listening`]: the table of the CAN-IDs that the node listens to.
 //! - [`boot`]: power-on, resets, and the configuration of all services.
@@ -220,8 +220,8 @@ impl<D: Device, A, S> Node<D, A, S> {
 }
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
-    /// Changes the application or values from the side of the device. Event-driven TPDOs of changed
-    /// values follow at once.
+    /// Changes the application or values as the device itself does. Event-driven TPDOs of changed
+    /// values are sent at once.
     pub fn change<R>(&mut self, now: Instant, act: impl FnOnce(&mut A, &mut Store<'_>) -> R) -> R {
         let result = self.look(act);
         self.handle_change(now);

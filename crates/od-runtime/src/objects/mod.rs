@@ -201,7 +201,7 @@ impl<'c, D: Services> Objects<'c, D> {
         self.change(row, bytes)
     }
 
-    /// Writes an object from the side of the device: as [`write`](Self::write), but without the
+    /// Writes an object for the device itself: as [`write`](Self::write), but without the
     /// check of the access type.
     pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let row = self.row(address)?;

@@ -62,7 +62,7 @@ impl Device {
         Store::new(self.dictionary, &mut self.values, NodeId::ONE).expect("room")
     }
 
-    /// As much flash as the device needs.
+    /// Flash of the size that the device needs.
     fn flash(&self, page: usize, word: usize) -> Nor {
         let capacity = image::capacity_on(self.dictionary, page, word);
         Nor::new(capacity, page, word)
@@ -142,12 +142,12 @@ fn a_page_after_the_set_is_erased_only_if_needed() {
     let mut flash = Nor::new(4 * page, page, 1);
     device.save(&mut flash).expect("a save");
     assert_eq!(flash.erases, 1);
-    // Nothing of a longer set stays there.
+    // The rest of a longer set is erased, too.
     flash.bytes[page..2 * page].fill(b'x');
     device.save(&mut flash).expect("in the other bank");
     device.save(&mut flash).expect("a save");
     assert!(flash.bytes[page..2 * page].iter().all(|byte| *byte == 0xFF));
-    // Flash that is all 0 has to be erased, too, where the set goes.
+    // Pages of zeros are erased, too, before a set is written there.
     flash.bytes.fill(0);
     device.save(&mut flash).expect("a save");
     let values = device.set();
@@ -274,7 +274,7 @@ fn a_word_that_cannot_be_written_fails_the_save() {
             }
             failed += 1;
             assert_eq!(result, Err(StorageError::NotWritten));
-            // The commit word shows neither that the save is complete nor that it failed.
+            // A stuck commit word (at 0) shows neither that the save is complete nor that it failed.
             if stuck > 0 {
                 assert_eq!((loaded, now), (Loaded::Complete, before), "{stuck}");
             }
@@ -283,7 +283,7 @@ fn a_word_that_cannot_be_written_fails_the_save() {
     }
 }
 
-/// That device, for a node.
+/// The dictionary of [`Device`], as the device of a node.
 struct Compiled(&'static od_model::Dictionary<'static>);
 
 impl od_runtime::Services for Compiled {}
@@ -297,7 +297,7 @@ impl od_runtime::Device for Compiled {
     }
 }
 
-/// A node of that device; the node responds to the save and reports an event.
+/// A node of [`Compiled`]: it responds to the save and reports an event.
 #[test]
 fn a_save_that_is_not_in_the_memory_aborts_and_is_reported() {
     let device = Device::new(CutSave::LastSet);

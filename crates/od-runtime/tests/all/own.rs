@@ -1,4 +1,4 @@
-//! Changes from the side of the device: a value, an error, the node ID that it was made with.
+//! Changes that the device itself makes: a value, an error, the node ID that it was made with.
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, Address, DataType};

@@ -243,7 +243,7 @@ fn the_response_to_a_save_is_on_the_channel_of_the_request() {
     assert_eq!(
         out,
         ["6C0#6010100100000000", "6C0#4300200005000000"],
-        "and the request behind it"
+        "and the request after it"
     );
 }
 
@@ -253,7 +253,7 @@ fn the_response_to_a_save_with_a_duration_is_on_that_channel_too() {
     bench.node.device_mut().profile.store.answer = SaveAnswer::AfterStoring;
     bench.node.device_mut().profile.store.duration_us = 50_000;
     assert!(bench.send("680#2310100173617665").is_empty());
-    assert!(bench.send("680#4000200000000000").is_empty(), "behind it");
+    assert!(bench.send("680#4000200000000000").is_empty(), "after it");
     let frames = ["6C0#6010100100000000", "6C0#4300200005000000"];
     assert_eq!(
         bench.wait(1_000),

@@ -17,7 +17,7 @@ pub use incident::{Cause, Incident};
 
 use crate::logs::Record;
 
-/// Most incidents of one rule; the first are kept.
+/// Maximum number of incidents of one rule; the first are kept.
 const MOST: usize = 1000;
 
 /// The incidents of a log, in the order of their beginning. A healthy log has none.

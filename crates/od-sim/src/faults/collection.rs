@@ -10,7 +10,7 @@ use crate::script::Script;
 
 /// Longest text, in bytes; a longer one is refused.
 const LONGEST: usize = 256 * 1024;
-/// Most causes and most probes of a case: a mark plays each probe for each cause.
+/// Maximum number of causes, and of probes, of a case: a mark plays each probe for each cause.
 const MOST: usize = 10;
 
 /// All cases of a text, and the causes that they share.

@@ -24,7 +24,7 @@ const RESPONSE: u64 = 500_000;
 const AFTER_READ: u64 = 1_000_000;
 /// Terminating resistor in ohms (ISO 11898-2).
 const TERMINATOR: u16 = 120;
-/// Most frames of a reading that are kept.
+/// Maximum number of frames of a reading that are kept.
 const KEPT: usize = 2000;
 
 /// A place to look at. Names are those of devices on the bench.
@@ -56,7 +56,7 @@ pub enum Probe {
     Leds(String),
     /// Disconnects a node and looks at the trace.
     Unplug(String),
-    /// Takes a node to a desk, alone with an interface that finds its bit rate.
+    /// Takes a node to a desk, where only an interface is connected, which finds the bit rate of the node.
     Desk(String),
     /// Turns the shaft of an encoder by a quarter of a revolution.
     Turn(String),
@@ -336,7 +336,7 @@ fn nmt(command: u8, node: u8) -> Frame {
 }
 
 impl Reading {
-    /// Sends a frame, lets time pass and notes what came.
+    /// Sends a frame, lets time pass and notes the frames that come.
     fn listens(&mut self, bus: &mut Bus, frame: Option<Frame>, micros: u64) {
         if let Some(frame) = frame {
             self.send(bus, frame);

@@ -41,7 +41,7 @@ pub struct Mark {
     pub is_proven: bool,
     /// The smallest number of probes that proves it.
     pub fewest: usize,
-    /// Such probes.
+    /// Probes of this number that prove it.
     pub best: Vec<usize>,
     /// The probes of the learner, in order.
     pub used: Vec<UsedProbe>,
@@ -151,7 +151,7 @@ impl<'c> Trial<'c> {
         Ok(self.mark(&table, used, named))
     }
 
-    /// As [`judge`](Self::judge), with the [rows](Self::row) of all causes; what probes show can have any form.
+    /// As [`judge`](Self::judge), with the [rows](Self::row) of all causes, whose readings can have any type.
     pub fn mark<R: PartialEq>(&self, table: &[Vec<R>], order: &[usize], named: usize) -> Mark {
         let all = 0..self.case.causes.len();
         let fits = |probe: usize, cause: usize| {

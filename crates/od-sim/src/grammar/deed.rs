@@ -40,7 +40,7 @@ pub enum Wire {
     Restarted,
 }
 
-/// An action that waits for nothing.
+/// An action that does not wait for a result.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Deed {
     /// Nothing: only time passes.
@@ -91,7 +91,7 @@ pub enum Deed {
     BusRate(Option<u16>),
     /// A change of the bus line.
     Line(Wire),
-    /// A line of the master's list, or what it is to do with the list.
+    /// A line of the master's list, or a command to the master.
     Master(MasterLine),
 }
 

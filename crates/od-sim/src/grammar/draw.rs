@@ -16,7 +16,7 @@ const UNITS: [(&str, i128); 4] = [
     ("min", 60_000_000),
     ("s", 1_000_000),
 ];
-/// Most digits after a decimal point.
+/// Maximum number of digits after a decimal point.
 const PLACES: usize = 9;
 
 /// A number of a draw from 0 to a last one.
@@ -131,7 +131,7 @@ fn between(word: &str, low: i128, high: i128, number: Number<'_>) -> Result<i128
 struct Written {
     /// Its digits without the point.
     digits: i128,
-    /// Number of digits behind the point.
+    /// Number of digits after the point.
     places: usize,
     /// The length of its unit in microseconds, for a duration.
     micros: Option<i128>,
@@ -168,7 +168,7 @@ impl Written {
         })
     }
 
-    /// Its digits with this number of places behind the point, at least its own.
+    /// Its digits with this number of digits after the point, which is at least its own.
     fn scaled(&self, places: usize) -> i128 {
         self.digits * 10_i128.pow((places - self.places) as u32)
     }

@@ -9,9 +9,9 @@ use super::parts::{Dip, Rate, Source};
 
 choice! {
     /// A change of a bench. A journal keeps every input with its virtual time, so that a run can be repeated: for a
-    /// step back, from a link, after a reload. Devices and stations count from 0; station 0 is the outside.
+    /// step back, from a link, after a reload. The first device has the number 0; station 0 is the outside.
     Input by "op" {
-        /// A device is added to the bus, new or instead of another.
+        /// A device is added to the bus, or replaces the one at `place`.
         "add" Add {
             "source" source: Source,
             "nodeId" node_id: u8,
@@ -19,7 +19,7 @@ choice! {
         }
         /// A device is removed from the bus.
         "remove" Remove { "node" node: u8, }
-        /// A frame is sent from outside. For a remote frame only the number of bytes counts.
+        /// A frame is sent from outside. A remote frame has no data: `data` gives its DLC by its length.
         "send" Send {
             "id" id: u32,
             "data" data: Vec<u8>,
@@ -59,7 +59,7 @@ choice! {
         "cut" Cut { "node" node: u8, "bytes" bytes: u32, }
         /// The EEPROM gets these bytes.
         "eeprom" Eeprom { "node" node: u8, "bytes" bytes: Vec<u8>, }
-        /// One device gets a frame without the bus.
+        /// One device receives a frame that is not on the bus.
         "deliver" Deliver { "node" node: u8, "id" id: u32, "data" data: Vec<u8>, }
         /// A lesson starts: its bench replaces the current one.
         "lesson" Lesson { "text" text: String, }
@@ -87,7 +87,7 @@ impl Input {
     }
 }
 
-/// A frame from its parts; for a remote frame only the number of bytes counts. `None` for more than
+/// A frame from its parts; a remote frame has the length of `data` as its DLC. `None` for more than
 /// eight bytes.
 pub fn frame(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame> {
     let id = if extended {

@@ -90,7 +90,7 @@ fn played(
     Ok((bench, progress))
 }
 
-/// Plays each step alone, on the bench after the set-up.
+/// Plays each step without the others, on the bench after the set-up.
 fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Problem>) {
     for (number, step) in lesson.steps.iter().enumerate() {
         let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {

@@ -41,9 +41,9 @@ pub struct Adapter {
 }
 
 impl Adapter {
-    /// Returns the bytes that open the channel, at `rate` in kbit/s or otherwise at the present rate of the
-    /// adapter; with `listens`, without acknowledging frames; with `stamps`, with time stamps if the adapter has them.
-    /// `None` for a rate that slcan does not have.
+    /// Returns the bytes that open the channel. `rate` is in kbit/s; without it the adapter keeps its present
+    /// rate. With `listens` the adapter acknowledges no frames. With `stamps` it adds time stamps, if it has
+    /// them. `None` for a rate that slcan does not have.
     pub fn begin(&mut self, rate: Option<u16>, listens: bool, stamps: bool) -> Option<Vec<u8>> {
         // The first end of line completes a line that an earlier host left.
         let mut text = String::from("\rC\r");
@@ -64,7 +64,7 @@ impl Adapter {
         Some(text.into_bytes())
     }
 
-    /// Takes bytes of the adapter.
+    /// Handles bytes from the adapter.
     pub fn receive(&mut self, bytes: &[u8], mut said: impl FnMut(Said)) {
         for byte in bytes {
             match byte {
@@ -81,7 +81,7 @@ impl Adapter {
         }
     }
 
-    /// Takes a line without its end; the bell in place of an end marks an error.
+    /// Handles a line, given without its end. `is_right` is false if the line ended with a bell, which marks an error.
     pub fn line(&mut self, line: &[u8], is_right: bool) -> Said {
         if let Some(frame) = slcan::frame_of(line) {
             return Said::Frame(frame);

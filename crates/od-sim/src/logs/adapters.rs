@@ -1,4 +1,4 @@
-//! Logs that are what an adapter or a tool of the command line writes: lines of slcan, messages of socketcand, `candump` of the
+//! Logs that an adapter or a command line tool writes: lines of slcan, messages of socketcand, `candump` of the
 //! older `canutils`, the packet list of tshark.
 
 use std::prelude::v1::*;
@@ -43,7 +43,7 @@ impl Form {
 /// Words before the CAN-ID in the packet list of tshark: 11 bits, 29 bits.
 const IDS: [&str; 2] = [" STD: 0x", " XTD: 0x"];
 
-/// Returns whether a line is a frame of slcan; two letters alone could be a word.
+/// Returns whether a line is a frame of slcan; two letters could also be a word.
 fn is_slcan(line: &str) -> bool {
     slcan::frame_of(line.as_bytes()).is_some()
 }

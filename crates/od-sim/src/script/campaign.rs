@@ -158,7 +158,7 @@ pub fn shrink<T: Clone, E>(
                 at += size;
             }
         }
-        // An item may be needed only by one behind it that is gone now.
+        // An item may be needed only by a later one, which is gone now.
         if size > 1 || items.len() == before {
             size /= 2;
         }

@@ -157,7 +157,7 @@ pub(super) fn play(
 }
 
 impl Runner<'_> {
-    /// Carries out a line, with what belongs to its end.
+    /// Carries out a line. Then checks the limits of the script, and shows the bench to the host.
     fn carry_out(&mut self, statement: &Statement) -> Result<()> {
         let mut result = self.statement(statement);
         if let Some(limits) = self.limits

@@ -13,7 +13,7 @@ use super::terminal::note;
 use crate::links::Codec;
 use crate::words::plural;
 
-/// Most bytes that wait for one client. After that the newest lines are dropped, so that no other
+/// Limit of bytes that wait for one client. At the limit the newest lines are dropped, so that no other
 /// client has to wait and memory stays bounded.
 const WAITING: usize = 1024 * 1024;
 /// Lower limit of the waiting bytes of a client, however many clients there are.

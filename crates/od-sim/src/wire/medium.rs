@@ -12,7 +12,7 @@ use super::bits::{self, BEHIND_ACKNOWLEDGE, INTERMISSION, arbitration};
 /// Reason why a frame failed.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum FrameError {
-    /// Nobody acknowledged it.
+    /// No station acknowledged it.
     NoAcknowledge,
     /// A station with another bit rate destroyed it.
     OtherBitRate,

@@ -327,7 +327,7 @@ impl Line {
     ///
     /// An error passive sender without an acknowledgement counts only if it sees a dominant bit while it sends its error
     /// flag (ISO 11898-1, fault confinement, rule c, exception 1): the acknowledgement of a station far away, or the
-    /// flag of another sender. A sender that is alone sees none, so it never goes bus-off.
+    /// flag of another sender. The only sender sees none, so it never goes bus-off.
     fn attempt(
         &mut self,
         stations: &[Station],
@@ -362,7 +362,7 @@ impl Line {
         } else {
             None
         };
-        // The error flag of an active sender begins behind the acknowledge slot and destroys the frame.
+        // The error flag of an active sender begins after the acknowledge slot and destroys the frame.
         let has_active = senders.iter().any(|sender| destroys(self, sender));
         let is_unheard = trouble == Some(FrameError::NoAcknowledge);
         let received = trouble.is_none() || is_unheard && is_late && !has_active;

@@ -135,7 +135,7 @@ fn an_error_passive_sender_counts_if_it_sees_the_error_flag_of_another() {
     assert_eq!(line.controller(2).transmit, 128);
 }
 
-/// The acknowledgement arrives in the bit behind the slot: an error active sender destroys the frame there; an error passive
+/// The acknowledgement arrives in the bit after the slot: an error active sender destroys the frame there; an error passive
 /// one sees a dominant bit in its error flag, while the receivers take the frame.
 #[cfg(feature = "training")]
 #[test]

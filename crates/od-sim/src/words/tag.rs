@@ -1,4 +1,4 @@
-//! Classifies frames by the predefined connection set (CiA 301, table 38) alone.
+//! Classifies frames only by the predefined connection set (CiA 301, table 38).
 
 use od_model::Address;
 use od_wire::Frame;

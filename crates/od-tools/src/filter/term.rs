@@ -256,7 +256,7 @@ fn object(text: &str) -> Option<Term> {
 /// Two hexadecimal numbers.
 fn pair(text: &str, between: &str) -> Option<(u32, u32)> {
     let (first, second) = text.split_once(between)?;
-    // `h` behind a number makes it an object with a sub-index.
+    // `h` after a number makes it an object with a sub-index.
     let plain = |text: &str| (!text.ends_with('h')).then(|| number(text)).flatten();
     Some((plain(first)?, plain(second)?))
 }

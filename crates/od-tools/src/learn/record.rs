@@ -20,7 +20,7 @@ const BOOT: Duration = Duration::from_secs(10);
 const START: Duration = Duration::from_secs(1);
 /// Time between two rounds of reading the values that change, in ms.
 const ROUND: u64 = 50;
-/// Most changes of values that are recorded.
+/// Maximum number of changes of values that are recorded.
 const CHANGES: usize = 10_000;
 
 /// Options of [`record`].

@@ -49,7 +49,7 @@ pub fn interfaces() -> Vec<String> {
     }
     let ports = serial2::SerialPort::available_ports().unwrap_or_default();
     let ports = ports.iter().map(|port| format!("slcan:{}", port.display()));
-    // Every PC has these ports, without an adapter behind them.
+    // Every PC has these ports, also without an adapter.
     found.extend(ports.filter(|port| !port.starts_with("slcan:/dev/ttyS")));
     found.sort();
     found

@@ -97,7 +97,7 @@ pub fn check(name: &str) -> Result<(), Error> {
     parse(name).map(drop)
 }
 
-/// The address, and the bus behind a socketcand.
+/// The address, and for socketcand the name of the bus.
 fn parse(name: &str) -> Result<(Address, &str), Error> {
     let (address, bus) = match name.split_once('/') {
         Some((address, bus)) if name.starts_with("socketcand:") => (address, bus),

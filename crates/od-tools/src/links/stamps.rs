@@ -46,7 +46,7 @@ impl Stamps {
         } else {
             difference.min(offset + drift)
         };
-        // The turn is counted in the stamp, not in the difference.
+        // The difference does not include the turns: each stamp gets its own.
         self.known = Some((offset, arrival));
         Instant::from_micros(u64::try_from(micros + offset).unwrap_or(0))
     }

@@ -66,7 +66,7 @@ pub(super) enum Act {
     Controller(BusEvent),
 }
 
-/// The action that these ten bytes encode; the entries are those of its dictionary.
+/// The action that these ten bytes encode; `entries` are those of the device's dictionary.
 pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
     let [op, a, b, c, rest @ ..] = *step;
     let own = u16::from(node);

@@ -1,5 +1,5 @@
-//! A stored image of any bytes: the device starts, its values stay within their limits, and values that it
-//! saves then are loaded again.
+//! An EEPROM with any bytes: the device starts, its values are within their limits, and the values that it
+//! saves are loaded at the next start.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -137,7 +137,7 @@ fn run(input: &[u8]) {
             entry.address
         );
     }
-    // Its identity is unchanged, and a save is loaded again.
+    // A save is loaded again, with the same node ID.
     send(&mut bus, &SAVE);
     let before: Vec<_> = kept(&mut bus, &entries);
     bus.with(0, VirtualDevice::power_off);

@@ -35,7 +35,7 @@ fn run(input: &[u8]) {
             _ => {}
         }
         if count % 64 == 0 {
-            model.compare("of their own accord", &[]);
+            model.compare("without a request", &[]);
         }
     }
 }

@@ -29,7 +29,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         if !cob_id.formula && fixed && predefined && !cob_id.extended {
             let base = id & 0x780;
             let finding = cob_id.finding(&I0531).fact("id", id).fact("base", base);
-            // Of another base only the author knows whether another PDO has it.
+            // A fix that changes the base could take the CAN-ID of another PDO: only the author can decide that.
             let fix = cob_id.fix().filter(|_| cob_id.predefined() == Some(base));
             findings.push(match fix {
                 Some(fix) => finding.fix(fix),

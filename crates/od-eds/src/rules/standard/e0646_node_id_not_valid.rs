@@ -25,7 +25,7 @@ const NO_LSS: Form = Form {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let given = commissioning(description).and_then(|section| section.get("NodeID"));
-    // The reader reports what is not a number.
+    // The reader reports a value that is not a number.
     let wrong = |id| matches!(id, 0 | 128..=254);
     if let Some(given) = given.filter(|given| number(given).is_some_and(wrong)) {
         findings.push(E0646.given(given));

@@ -33,7 +33,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let (Some(given), Some(object)) = (info.get(field), object) else {
             continue;
         };
-        // 0 means that the value is not known; W0609 reports what is not a number of 32 bits.
+        // 0 means that the value is not known; W0609 reports a value that is not a number of 32 bits.
         let known = number(given).and_then(|number| u32::try_from(number).ok());
         let differs = |given: &u32| *given != 0 && u64::from(*given) != object.value;
         let Some(number) = known.filter(|given| object.value != 0 && differs(given)) else {

@@ -44,7 +44,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some((given, rate)) = given.and_then(|given| Some((given, number(given)?))) else {
         return;
     };
-    // The reader reports what is not a number of 16 bits.
+    // The reader reports a value that is not a number of 16 bits.
     if !(0..=0xFFFF).contains(&rate) {
         return;
     }

@@ -58,8 +58,8 @@ fn reserved(address: Address, number: u64) -> Option<(Reserved, &'static str)> {
     wrong.has(number).then_some((wrong, what))
 }
 
-/// Returns the node ID that is reserved in an SDO client whose COB-IDs are both valid.
-fn nobody(entry: &Entry<'_>, number: u64) -> Option<(Reserved, &'static str)> {
+/// Returns the node ID (0) that is reserved in an SDO client whose COB-IDs are both valid.
+fn reserved_server(entry: &Entry<'_>, number: u64) -> Option<(Reserved, &'static str)> {
     let Address { index, sub } = entry.address;
     let is_valid = |sub| {
         let value = entry.description.entry(Address::new(index, sub));
@@ -79,7 +79,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && let Some(number) = value.integer(0)
         && let Ok(unsigned) = u64::try_from(number)
         && let Some((wrong, what)) =
-            reserved(entry.address, unsigned).or_else(|| nobody(entry, unsigned))
+            reserved(entry.address, unsigned).or_else(|| reserved_server(entry, unsigned))
     {
         let finding = W0648.on(entry, value.span).fact("object", entry.shown());
         let finding = finding

@@ -12,6 +12,7 @@ use crate::keys;
 use crate::layout::{Layout, Section};
 use crate::standard;
 
+/// The mandatory objects of CiA 301.
 const MANDATORY: [u16; 3] = [0x1000, 0x1001, 0x1018];
 
 /// Completions of a section name; with the keys of an object if its section `is_empty`.
@@ -38,7 +39,7 @@ pub(super) fn of(seen: &Seen, current: Option<&Section>, is_empty: bool) -> Vec<
     let profile = standard::profile(description);
     let name = |index: u16| specified(index).map(|known| known.name);
     let of_standard = (0x1000..0x2000u16).filter(|index| {
-        // The first one of a range.
+        // Of a range of objects with one name, the first.
         name(*index).is_some() && name(*index) != name(index - 1)
     });
     let of_profile = profile.into_iter().flat_map(profile_objects);
@@ -101,7 +102,7 @@ fn sections(index: u16, name: &str, code: ObjectCode, access: Access) -> String 
     let own = text
         .split_once(&format!("[{index:04X}]"))
         .map(|(_, own)| own);
-    // The lists after its own object type come after the object.
+    // The lists of the later object types are written after the object.
     let own = own.and_then(|own| {
         let lists = own
             .find("\n\n[Optional")

@@ -233,7 +233,7 @@ fn frames_of_a_device_without_power_are_lost() {
 }
 
 /// The oldest frame of the outside waits a little longer because its controller is error passive. A second one
-/// behind it waits, too.
+/// after it waits, too.
 #[test]
 fn two_frames_that_no_node_acknowledges_do_not_stop_time() {
     let mut bus = bus(500, &[5]);
@@ -251,7 +251,7 @@ fn two_frames_that_no_node_acknowledges_do_not_stop_time() {
     assert_eq!(own, ["080#", "081#"]);
 }
 
-/// Two devices repeat their boot-up messages, which nobody acknowledges, on wires of their own (ISO 11898-1): the others
+/// Two devices repeat their boot-up messages, which no station acknowledges, on wires of their own (ISO 11898-1): the others
 /// have the whole line, also with a frame of lower priority.
 #[test]
 fn a_device_that_is_not_connected_takes_no_time_of_the_line() {

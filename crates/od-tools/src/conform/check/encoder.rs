@@ -167,7 +167,7 @@ pub(super) fn code_sequence(dut: &mut Dut<'_>) -> Checked {
 const STEPS: Address = Address::new(0x6001, 0);
 const RANGE: Address = Address::new(0x6002, 0);
 
-/// Position noise and movement of a shaft that stands, in steps.
+/// Position noise of a shaft at rest, in steps.
 const NOISE: u64 = 16;
 
 /// Sets bit 2 of 6000h, which turns the scaling on.

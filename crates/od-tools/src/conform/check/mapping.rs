@@ -546,7 +546,7 @@ pub(super) fn order(dut: &mut Dut<'_>) -> Checked {
 /// Greatest number of objects that a case maps one after the other.
 const MANY: usize = 256;
 
-/// The PDO takes each object that it may map according to the EDS, alone.
+/// The PDO accepts each object that it may map according to the EDS, as its only one.
 pub(super) fn takes_each(dut: &mut Dut<'_>, pdo: Tpdo, may: impl Fn(&Entry) -> bool) -> Checked {
     let fits =
         |entry: &Entry| may(entry) && matches!(entry.data_type.bits(), Some(8 | 16 | 32 | 64));

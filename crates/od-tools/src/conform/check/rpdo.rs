@@ -171,7 +171,7 @@ pub(super) fn history_order(dut: &mut Dut<'_>) -> Checked {
     if !dut.eds.has(0x1003) || dut.eds.entry(0x1003, 2).is_none() {
         return lacks("1003h has one entry");
     }
-    // The node reports a missing heartbeat alone.
+    // Without another error the node reports a missing heartbeat.
     let node = watch(dut, 100)?;
     dut.nmt(Command::Start)?;
     beat(dut, node)?;
@@ -533,7 +533,7 @@ fn waits(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
     done
 }
 
-/// This object, and another one behind it if the mapping has room for it.
+/// This object, and another one after it if the mapping has room for both.
 fn with_another(dut: &Dut<'_>, map: u16, all: &[Entry], first: &Entry) -> Vec<u32> {
     let other = all.iter().find(|entry| {
         let bits = (raw(first) & 0xFF) + (raw(entry) & 0xFF);

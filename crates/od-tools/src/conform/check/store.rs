@@ -237,7 +237,7 @@ fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
     let before = dut.read(address)?;
     dut.write(address, &bytes)?;
     let done = command(dut, 0x1010, sub, b"save").and_then(|()| {
-        // A node that does not reload its values at a reset must have saved the value all the same.
+        // A node that keeps its values at a reset must have saved this one, too: write the earlier value before the reset.
         dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;
         for command in [None, Some(Command::ResetCommunication)] {
@@ -389,8 +389,8 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
     let changed = change_several(dut)?;
     let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
         all_are_there(dut, &changed, "after the save, which changes no value")?;
-        // A node that does not reload its values at a reset must have saved the values all the
-        // same.
+        // A node that keeps its values at a reset must have saved these, too: write the earlier values before the
+        // reset.
         for (address, before, _) in &changed {
             dut.write(*address, before)?;
         }

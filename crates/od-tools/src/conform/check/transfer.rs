@@ -333,7 +333,7 @@ impl Channel {
         if dut.eds.entry(index, 2).is_none() {
             return Ok(None);
         }
-        // From the server first, as the channel is valid with both.
+        // The COB-ID of the responses comes first: the channel is valid as soon as both are valid.
         let parts = [Address::new(index, 2), Address::new(index, 1)];
         let mut ids = Vec::new();
         for (address, free) in parts.into_iter().zip([0x6D0, 0x6B0]) {

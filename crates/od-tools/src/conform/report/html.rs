@@ -1,4 +1,4 @@
-//! The report as one HTML page, with every frame behind its case; it can be printed.
+//! The report as one HTML page, with the frames of each case after its result; it can be printed.
 
 use super::run::{Narrator, Report, groups, millis, source};
 use crate::conform::record::{Record, Verdict};
