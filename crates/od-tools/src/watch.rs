@@ -3,7 +3,7 @@
 use od_client::{Client, Event, Job, pdo};
 use od_model::typed::MapEntry;
 use od_model::{Address, DataType, TransmissionType};
-use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
+use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 use crate::error::Error;
 use crate::link::Link;
@@ -11,9 +11,6 @@ use crate::master::Master;
 
 /// A value that is mapped into a TPDO is polled if no TPDO arrives for this time: the node may not be Operational.
 const GRACE: Duration = Duration::from_secs(1);
-/// Bits of a COB-ID: not valid, 29-bit CAN-ID.
-const NOT_VALID: u32 = 1 << 31;
-const EXTENDED: u32 = 1 << 29;
 
 /// Origin of a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -75,8 +72,8 @@ pub fn sources(
             Err(_) if number > 4 => break,
             read => number_of(read),
         };
-        let cob_id = cob_id.filter(|cob_id| cob_id & NOT_VALID == 0);
-        let Some(id) = cob_id.map(can_id) else {
+        let cob_id = cob_id.map(CobId::new).filter(|cob_id| cob_id.is_valid());
+        let Some(id) = cob_id.map(CobId::can_id) else {
             continue;
         };
         let kind = number_of(read(master, index, 2)?);
@@ -131,13 +128,6 @@ fn number_of(read: Result<Vec<u8>, u32>) -> Option<u32> {
     let mut wide = [0; 4];
     wide[..bytes.len()].copy_from_slice(&bytes);
     Some(u32::from_le_bytes(wide))
-}
-
-fn can_id(cob_id: u32) -> CanId {
-    match cob_id & EXTENDED {
-        0 => CanId::standard((cob_id & 0x7FF) as u16),
-        _ => CanId::extended(cob_id & 0x1FFF_FFFF),
-    }
 }
 
 /// The value in the data of its TPDO; `None` if the frame is too short.

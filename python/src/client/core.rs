@@ -108,7 +108,7 @@ impl Core {
                 Ok(None) => continue,
                 Err(error) => return Ok(Err(error)),
             };
-            let Some(id) = can_id(i128::from(cob_id)) else {
+            let Some(id) = can_id(cob_id) else {
                 continue;
             };
             let mapped = 0x1A00 + number;

@@ -3,13 +3,9 @@
 use od_client::pdo::{Mapping, decode};
 use od_eds::{Description, Tables};
 use od_model::{Address, DataType, Dictionary, values};
-use od_wire::CanId;
+use od_wire::{CanId, CobId};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-
-/// Bits of a COB-ID: not valid, 29 bits.
-const NOT_VALID: i128 = 1 << 31;
-const EXTENDED: i128 = 1 << 29;
 
 /// A TPDO of a node.
 #[derive(Clone)]
@@ -64,7 +60,7 @@ impl Known {
             Some(Tpdo {
                 node,
                 number: number + 1,
-                id: can_id(cob_id)?,
+                id: can_id(u32::try_from(cob_id).ok()?)?,
                 mapping: mapping.entries().to_vec(),
             })
         };
@@ -73,12 +69,9 @@ impl Known {
 }
 
 /// The CAN-ID of a COB-ID; `None` if the PDO is not valid.
-pub(crate) fn can_id(cob_id: i128) -> Option<CanId> {
-    match cob_id & EXTENDED {
-        _ if cob_id & NOT_VALID != 0 => None,
-        0 => Some(CanId::standard((cob_id & 0x7FF) as u16)),
-        _ => Some(CanId::extended((cob_id & 0x1FFF_FFFF) as u32)),
-    }
+pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
+    let cob_id = CobId::new(cob_id);
+    cob_id.is_valid().then(|| cob_id.can_id())
 }
 
 /// The values in a PDO; empty if it is shorter than its mapping.
