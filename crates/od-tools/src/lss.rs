@@ -19,19 +19,6 @@ const SECOND: u64 = 50;
 /// so a late response makes the search wrong; it then begins again with the next time.
 const PACES: [u64; 3] = [50, 200, 800];
 
-/// Bit rates in kbit/s by their index in table 0 of CiA 301; index 5 is reserved.
-pub const BIT_RATES: [Option<u16>; 9] = [
-    Some(1000),
-    Some(800),
-    Some(500),
-    Some(250),
-    Some(125),
-    None,
-    Some(50),
-    Some(20),
-    Some(10),
-];
-
 /// An LSS master on a link. When it is dropped, it switches all slaves to LSS waiting state.
 #[derive(Debug)]
 pub struct Lss<L: Link> {
@@ -143,16 +130,16 @@ impl<L: Link> Lss<L> {
         store: bool,
         activate: Option<u16>,
     ) -> Result<(), Error> {
-        let index = BIT_RATES.iter().position(|rate| *rate == Some(kbit));
-        let index = index
-            .and_then(|index| u8::try_from(index).ok())
-            .ok_or_else(|| {
-                let rates = BIT_RATES.iter().flatten().map(u16::to_string);
-                Error::Usage(format!(
-                    "CiA 301 does not define {kbit} kbit/s; write one of {}",
-                    rates.collect::<Vec<_>>().join(", ")
-                ))
-            })?;
+        let mut table = 0..=8;
+        let index = table.find(|index| lss::kbit(*index) == Some(kbit));
+        let index = index.ok_or_else(|| {
+            let rates = (0..=8).filter_map(lss::kbit);
+            let rates: Vec<_> = rates.map(|rate| rate.to_string()).collect();
+            let rates = rates.join(", ");
+            Error::Usage(format!(
+                "CiA 301 does not define {kbit} kbit/s; write one of {rates}"
+            ))
+        })?;
         self.select(slaves)?;
         self.run(Task::ConfigureBitTiming { table: 0, index })?;
         if store {
