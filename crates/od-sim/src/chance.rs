@@ -1,5 +1,14 @@
 //! Random numbers that are the same on every computer.
 
+/// The number at a place of the sequence of a seed (splitmix64).
+pub(crate) fn drawn(seed: u64, place: u64) -> u64 {
+    let step = 0x9E37_79B9_7F4A_7C15_u64;
+    let mixed = seed.wrapping_add(step.wrapping_mul(place.wrapping_add(1)));
+    let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+    mixed ^ mixed >> 31
+}
+
 /// A sequence of random numbers (xorshift64*).
 #[derive(Clone, Debug)]
 pub(crate) struct Chance(u64);
@@ -13,11 +22,7 @@ impl Chance {
 
     /// The sequence of a seed. Seeds that are close together, such as 1 and 2, give unrelated sequences.
     pub(crate) fn of_seed(seed: u64) -> Self {
-        // The last steps of splitmix64.
-        let mixed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-        Self::new(mixed ^ mixed >> 31)
+        Self::new(drawn(seed, 0))
     }
 
     /// The next number.

@@ -9,6 +9,7 @@ use od_runtime::{DeviceKind, Instant, NodeId};
 use super::error::Error;
 use super::options::Options;
 use super::terminal::note;
+use crate::chance::drawn;
 use crate::device::VirtualDevice;
 use crate::words::plural;
 
@@ -222,15 +223,10 @@ fn set_shaft(args: &Options, at: usize, device: &mut VirtualDevice) -> bool {
     placed && turns
 }
 
-/// Pseudo-random revolutions, the same for the same numbers (SplitMix64).
+/// Random revolutions of the device at a place, the same for the same seed.
 fn anywhere(seed: u64, at: usize) -> f64 {
-    let step = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut bits = seed.wrapping_add(step.wrapping_mul(at as u64 + 1));
-    bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-    bits ^= bits >> 31;
     // 16 bits of turns and 32 bits of angle: the resolution of the largest of our encoders.
-    (bits >> 16) as f64 / 4_294_967_296.0
+    (drawn(seed, at as u64) >> 16) as f64 / 4_294_967_296.0
 }
 
 #[cfg(test)]
