@@ -103,7 +103,11 @@ impl Adapter {
     /// empty if slcan does not have this rate.
     pub fn begin(&mut self, rate: Option<u16>) -> Vec<u8> {
         (self.is_open, self.is_closed) = (false, false);
-        self.adapter.begin(rate, false, false).unwrap_or_default()
+        let opening = adapter::Opening {
+            rate,
+            ..adapter::Opening::default()
+        };
+        self.adapter.begin(opening).unwrap_or_default()
     }
 
     /// Handles bytes of the adapter; their frames are on the bus then.

@@ -30,6 +30,17 @@ pub enum Said {
     Noise(Vec<u8>),
 }
 
+/// The way in which an adapter opens its channel.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Opening {
+    /// Bit rate in kbit/s; `None`: the adapter keeps its present rate.
+    pub rate: Option<u16>,
+    /// The adapter only listens: it acknowledges no frames.
+    pub listens: bool,
+    /// The adapter adds time stamps, if it has them.
+    pub stamps: bool,
+}
+
 /// State of the conversation with an adapter.
 #[derive(Clone, Debug, Default)]
 pub struct Adapter {
@@ -41,26 +52,24 @@ pub struct Adapter {
 }
 
 impl Adapter {
-    /// Returns the bytes that open the channel. `rate` is in kbit/s; without it the adapter keeps its present
-    /// rate. With `listens` the adapter acknowledges no frames. With `stamps` it adds time stamps, if it has
-    /// them. `None` for a rate that slcan does not have.
-    pub fn begin(&mut self, rate: Option<u16>, listens: bool, stamps: bool) -> Option<Vec<u8>> {
+    /// Returns the bytes that open the channel; `None` for a rate that slcan does not have.
+    pub fn begin(&mut self, opening: Opening) -> Option<Vec<u8>> {
         // The first end of line completes a line that an earlier host left.
         let mut text = String::from("\rC\r");
         *self = Self {
             due: 3,
             ..Self::default()
         };
-        if let Some(rate) = rate {
+        if let Some(rate) = opening.rate {
             let number = RATES.iter().position(|one| *one == rate)?;
             text.push_str(&format!("S{number}\r"));
             self.due += 1;
         }
-        if stamps {
+        if opening.stamps {
             text.push_str("Z1\r");
             self.due += 1;
         }
-        text.push_str(if listens { "L\r" } else { "O\r" });
+        text.push_str(if opening.listens { "L\r" } else { "O\r" });
         Some(text.into_bytes())
     }
 
@@ -128,12 +137,19 @@ mod tests {
         all
     }
 
+    fn at(rate: Option<u16>) -> Opening {
+        Opening {
+            rate,
+            ..Opening::default()
+        }
+    }
+
     #[test]
     fn it_opens_the_channel_of_odkit_sim() {
         let mut server = slcan::Channel::default();
         for rate in [None, Some(10), Some(1000)] {
             let mut adapter = Adapter::default();
-            let begin = adapter.begin(rate, false, false).unwrap_or_default();
+            let begin = adapter.begin(at(rate)).unwrap_or_default();
             let (mut steps, mut answer) = (Vec::new(), Vec::new());
             server.receive(&begin, Instant::ZERO, &mut steps);
             for step in steps {
@@ -147,7 +163,7 @@ mod tests {
                 "{rate:?}"
             );
         }
-        assert_eq!(Adapter::default().begin(Some(300), false, false), None);
+        assert_eq!(Adapter::default().begin(at(Some(300))), None);
     }
 
     #[test]
@@ -155,11 +171,14 @@ mod tests {
         let mut adapter = Adapter::default();
         assert!(
             adapter
-                .begin(None, true, false)
+                .begin(Opening {
+                    listens: true,
+                    ..Opening::default()
+                })
                 .is_some_and(|text| text.ends_with(b"L\r"))
         );
         assert_eq!(said(&mut adapter, b"\r\r\x07").last(), Some(&Said::Closed));
-        assert!(adapter.begin(Some(500), false, false).is_some());
+        assert!(adapter.begin(at(Some(500))).is_some());
         assert_eq!(said(&mut adapter, b"\r\r\r\r").last(), Some(&Said::Open));
         assert_eq!(said(&mut adapter, b"t7011"), []);
         let boot = Said::Frame(Frame::standard(0x701, &[5]));

@@ -1,6 +1,6 @@
 //! The client side of slcan: an adapter on a serial line, an slcan server, or `odkit sim`.
 
-use od_sim::links::adapter::{self, Adapter, RATES};
+use od_sim::links::adapter::{self, Adapter, Opening, RATES};
 use od_sim::links::slcan;
 use od_wire::{Duration, Frame};
 
@@ -53,13 +53,16 @@ impl Slcan {
 impl Protocol for Slcan {
     fn begin(&mut self, listen_at: Option<u16>) -> Result<Vec<u8>, String> {
         let rate = listen_at.or(self.rate);
-        self.adapter
-            .begin(rate, listen_at.is_some(), self.stamps)
-            .ok_or_else(|| {
-                let rates = RATES.map(|rate| rate.to_string()).join(", ");
-                let rate = rate.unwrap_or_default();
-                format!("slcan does not support {rate} kbit/s; write one of {rates}")
-            })
+        let opening = Opening {
+            rate,
+            listens: listen_at.is_some(),
+            stamps: self.stamps,
+        };
+        self.adapter.begin(opening).ok_or_else(|| {
+            let rates = RATES.map(|rate| rate.to_string()).join(", ");
+            let rate = rate.unwrap_or_default();
+            format!("slcan does not support {rate} kbit/s; write one of {rates}")
+        })
     }
 
     fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String> {
