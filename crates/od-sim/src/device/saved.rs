@@ -91,8 +91,7 @@ impl VirtualDevice {
     /// exist or is not saved.
     pub(crate) fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
         let entry = self.dictionary().find(address).ok()?;
-        let start = entry.slot.offset as usize;
-        let range = start..start + usize::from(entry.slot.len);
+        let range = place(&entry);
         let kept = entry.group != od_model::Group::None && !range.is_empty();
         saved.values.get(range).filter(|_| kept).map(<[u8]>::to_vec)
     }
@@ -107,9 +106,14 @@ impl VirtualDevice {
     fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
         let dictionary = self.dictionary();
         let entry = dictionary.find(address).ok().filter(is_saved)?;
-        let start = entry.slot.offset as usize;
-        Some(start..start + usize::from(entry.slot.len))
+        Some(place(&entry))
     }
+}
+
+/// Place of a value in the store.
+fn place(entry: &Entry) -> Range<usize> {
+    let start = entry.slot.offset as usize;
+    start..start + usize::from(entry.slot.len)
 }
 
 /// Returns whether 1010h saves the value.
