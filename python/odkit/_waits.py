@@ -301,7 +301,7 @@ def install() -> None:
 class _Shown(Clock):
     """A clock of ``time`` during ``patch_time``."""
 
-    #: Readings in a row that let 1 ms pass, so that a loop which only reads the clock comes to an end.
+    #: Readings in a row that let 1 ms pass, so that a loop which only reads the clock ends.
     READINGS = 1000
 
     def __init__(self, real: Callable[[], int]) -> None:

@@ -336,8 +336,8 @@ impl Sight {
                     ),
                 };
                 if *unacknowledged {
-                    english.push_str(": nobody acknowledges");
-                    german.push_str(": niemand bestätigt");
+                    english.push_str(": no node acknowledges");
+                    german.push_str(": kein Knoten bestätigt");
                 }
                 (english, german)
             }

@@ -143,7 +143,7 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
         incident = incident.cause(Cause::new(
             "bit-rate",
             format!("node {id} has another bit rate, and its controller has gone bus-off"),
-            "the bit rate of the device alone on a bus, with each rate in turn",
+            "the bit rate of the device, with only the device on a bus and each rate in turn",
         ));
     }
     Some(incident)

@@ -425,7 +425,9 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
             .download(Address::new(map, 1), &entry.to_le_bytes())?
             .is_err()
         {
-            return lacks(format!("the node does not map {address} alone"));
+            return lacks(format!(
+                "the node does not accept a mapping of only {address}"
+            ));
         }
         dut.write(Address::new(map, 0), &[1])?;
         for ((other, was), (_, is)) in neighbours.iter().zip(others(dut, map)?) {
@@ -449,7 +451,7 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
         let got = format!("{} came", heard.frame);
         ensure(
             usize::from(heard.frame.dlc()) == len,
-            format!("a TPDO of {len} bytes, {address} alone"),
+            format!("a TPDO of {len} bytes with only {address}"),
             got.clone(),
         )?;
         match (before, after) {
