@@ -44,11 +44,11 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
         .frames
         .last()
         .is_some_and(|seen| seen.at > end.plus_micros(200_000));
-    let text = format!(
-        "{count} error {} and {good} {} between them",
-        if count == 1 { "frame" } else { "frames" },
-        if good == 1 { "frame" } else { "frames" },
-    );
+    let text = match (count, good) {
+        (1, _) => "1 error frame".to_owned(),
+        (_, 1) => format!("{count} error frames and 1 frame between them"),
+        _ => format!("{count} error frames and {good} frames between them"),
+    };
     let silence = Cause::new(
         "no-acknowledge",
         "no other node acknowledges: one node sends its frame again and again",
