@@ -195,6 +195,39 @@ test('a trainer sees two students, offers a lesson, sees who is stuck, and empti
   for (const page of [trainer, again, anna, ben]) await page.context().close();
 });
 
+test('a trainer sees who is in a fault case or in the final test, and an offer arrives there', async () => {
+  const { found: address } = await start(0);
+  const { page: trainer, faults } = await visit(address);
+  const { page: anna, faults: ofAnna } = await visit(new URL('/', address).href);
+  await (await introduce(anna, 'Anna')).waitFor({ state: 'hidden' });
+  const cell = (column) => trainer.getByRole('row', { name: 'Anna' }).locator('td').nth(column).innerText();
+  await anna.getByRole('button', { name: 'Learn' }).click();
+  await anna.getByRole('button', { name: 'Fault cases' }).click();
+  await anna.getByRole('button', { name: 'Node 4 does not answer' }).click();
+  await becomes('her place', () => cell(0), 'Fault case');
+  await anna.getByRole('radio').first().check();
+  await anna.getByRole('button', { name: 'Check my answer' }).click();
+  await becomes('it is marked', () => cell(1), 'done');
+  await anna.getByRole('button', { name: 'All lessons' }).click();
+  await anna.getByRole('button', { name: 'Begin the final test' }).click();
+  await anna.getByRole('button', { name: 'I do not know it' }).click();
+  await becomes('the test', () => cell(0), 'Final test');
+  await becomes('her question', () => cell(1), '2 of 12');
+  await trainer.getByRole('combobox', { name: 'Lesson to offer' }).selectOption('sdo');
+  await trainer.getByRole('button', { name: 'Offer to all' }).click();
+  const offer = anna.getByRole('dialog', { name: 'Final test' }).getByRole('region', { name: 'Offers' });
+  await offer.getByText('Your trainer offers the lesson').waitFor();
+  await flawless(anna, 'an offer in a dialog', 'dialog[open]');
+  await offer.getByRole('button', { name: 'Open it' }).click();
+  await becomes('the lesson', () => cell(0), /^SDO/);
+  // The test waits where it was.
+  await anna.getByRole('button', { name: 'Learn' }).click();
+  await anna.getByRole('button', { name: 'Continue the final test with question 2 of 12' }).click();
+  await becomes('the test again', () => cell(1), '2 of 12');
+  for (const [of, all] of Object.entries({ faults, ofAnna })) assert.deepEqual(all, [], of);
+  for (const page of [trainer, anna]) await page.context().close();
+});
+
 test("without the trainer's word or without a class the page says what to open", async () => {
   const { found: address } = await start(0);
   const { page } = await visit(new URL('/trainer.html', address).href);

@@ -3,10 +3,11 @@
 import { effect } from '@preact/signals-core';
 import { clear as clearProgress, finished, progress } from '../lessons/kept';
 import { lessons, openNamed, words } from '../lessons/open';
-import { forget as forgetTab } from '../lessons/tab';
+import { forget as forgetTab, kept } from '../lessons/tab';
 import { forget as forgetBench } from '../share/keep';
 import * as state from '../state';
 import type { Refused } from './name';
+import { CASE, TEST } from './places';
 import { C } from './texts';
 
 /** The student, as the class knows her. */
@@ -22,6 +23,9 @@ const SOON = 200;
 const PATIENCE = 5000;
 /** Failed reports after which the student is told. */
 const MOST_FAILED = 3;
+
+/** Without wrong answers and help: a fault case and the final test mark them at the end. */
+const ALONE = { wrong: 0, hints: 0, shown: 0 };
 
 const KEY = 'odkit.class';
 /** The page that the student used last reports, if she has several of them. */
@@ -114,8 +118,23 @@ async function leave(): Promise<void> {
   location.replace(location.pathname + location.search);
 }
 
-/** The lesson in progress; null on a free bench. */
+/** Place in a fault case or in the final test, which cover the lesson; null elsewhere. */
+function cover() {
+  if (!state.lessonDialog.value) return null;
+  const { value: wanted } = state.faultCase;
+  if (wanted?.name) {
+    const known = kept('case');
+    const isMarked = known?.isMarked && known.name === wanted.name && known.seed === wanted.seed;
+    return { name: CASE, step: isMarked ? 1 : 0, of: 1, ...ALONE };
+  }
+  const test = location.hash === TEST ? kept('test') : null;
+  return test && { name: TEST, step: test.given.length, of: test.asked.length, ...ALONE };
+}
+
+/** The fault case, final test or lesson in progress; null on a free bench. */
 function place() {
+  const covering = cover();
+  if (covering) return covering;
   const { value: lesson } = state.lesson;
   const { value: at } = state.lessonState;
   const { name } = state.lessonRun.value;

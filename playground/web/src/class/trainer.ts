@@ -6,6 +6,8 @@ import { german, language } from '../language';
 import { icons } from '../views/icons';
 import { languageButton } from '../views/language';
 import { View } from '../views/view';
+import { FINAL } from '../lessons/kept';
+import { CASE, TEST } from './places';
 import { C } from './texts';
 
 /** A lesson of the list. */
@@ -32,6 +34,9 @@ interface Row {
 /** Milliseconds between two looks at the class, and that it has for its answer. */
 const PAUSE = 1000;
 const PATIENCE = 4000;
+
+/** Number of stuck students that are named above the table, where their rows are marked. */
+const NAMED = 3;
 
 const KEY = 'odkit.trainer';
 
@@ -128,6 +133,8 @@ class Trainer extends View {
   }
 
   private titleOf(name: string): string {
+    if (name === CASE) return C.trainer.faultCase;
+    if (name === TEST || name === FINAL) return C.trainer.finalTest;
     const one = this.lessons.find((other) => other.name === name);
     return (german.value && one?.de?.title) || one?.title || name;
   }
@@ -184,8 +191,8 @@ class Trainer extends View {
     const t = C.trainer;
     const here = this.rows.filter(({ presence }) => presence !== 'lost').length;
     const stuck = this.rows.filter((row) => row.stuck);
-    const names = stuck.map((row) => `${row.name} (${this.titleOf(row.at!.name)}, ${row.at!.step + 1})`).join(', ');
-    return html`<p class="summary" role="status">${this.rows.length ? t.sum(here, this.rows.length) : nothing}${stuck.length ? html` <strong>${t.stuck(names)}</strong>` : nothing}</p>`;
+    const names = stuck.slice(0, NAMED).map((row) => `${row.name} (${this.titleOf(row.at!.name)}, ${row.at!.step + 1})`).join(', ');
+    return html`<p class="summary" role="status">${this.rows.length ? t.sum(here, this.rows.length) : nothing}${stuck.length ? html` <strong>${t.stuck(names, Math.max(0, stuck.length - NAMED))}</strong>` : nothing}</p>`;
   }
 
   private content(): TemplateResult {

@@ -2,6 +2,7 @@
 
 import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
+import { TEST } from '../class/places';
 import { C } from '../class/texts';
 import { copyText } from '../clipboard';
 import { cards } from '../labs/open';
@@ -20,9 +21,6 @@ import { D } from './texts';
 import { load, View } from './view';
 
 await sheet('dialogs');
-
-/** The address of the final test. */
-const TEST = '#test';
 
 /** Gives the page the address of its lesson, or of no lesson, in place of that of a fault case or of the final test. */
 function leave(): void {
@@ -151,6 +149,7 @@ class Lessons extends View {
     return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
       <div class="dialog-body">
         <header class="dialog-head"><h2 id="lessons-title">${title}</h2><div class="spacer"></div>${languageButton()}<button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
+        <od-offers></od-offers>
         ${content}
       </div>
     </dialog>`;
