@@ -47,6 +47,55 @@ for (const [width, height] of [[390, 844], [640, 400], [800, 900]])
     await until('the next button above the bar', () => isAbove('Continue'));
   });
 
+check('a long checklist is short in a low window, and scrolls', { hash: '#lesson=master', width: 640, height: 400 }, async (page) => {
+  const checks = page.locator('.lesson-foot .checks');
+  await becomes('the conditions', () => checks.locator('li').count(), 5);
+  const { height } = await checks.boundingBox();
+  assert.ok(height <= 70, `${height} pixels`);
+  await checks.focus();
+  await page.keyboard.press('End');
+  await until('the last one', () => checks.evaluate((it) => it.scrollTop > 0 && it.scrollTop + it.clientHeight >= it.scrollHeight - 1));
+});
+
+check('four nodes on two lines leave the buttons of a step in the window', { hash: '#lesson=does-not-follow', width: 1024, height: 768 }, async (page) => {
+  const hint = page.locator('.lesson-foot').getByRole('button', { name: 'A hint', exact: true });
+  await hint.waitFor();
+  await becomes('pixels below the window', () => page.evaluate(() => document.documentElement.scrollHeight - innerHeight), 0);
+  const { y, height } = await hint.boundingBox();
+  assert.ok(y + height <= 768, `${y + height}`);
+});
+
+/** A log whose seventh frame is an abort. */
+const LOG = Array.from({ length: 200 }, (_, i) => `(${(1 + i / 20).toFixed(6)}) can0 ${i === 6 ? '581#8005200000000206' : ['601#4004600000000000', '705#05', '085#3081110000000000'][i % 3]}`).join('\n');
+
+for (const [width, height] of [[1366, 625], [1024, 768], [640, 400], [390, 844]])
+  check(`a found frame is in sight beside its detail, and tables fit into the panel, ${width}`, { width, height }, async (page) => {
+    if (width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
+    await booted(page);
+    await page.evaluate((text) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([text], 'a-machine-with-a-long-name-2026-11-28.log'));
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+    }, LOG);
+    await page.getByRole('button', { name: 'Open beside it' }).click();
+    await page.getByText('200 frames are in the console').waitFor();
+    await page.locator('.frames').press('Control+f');
+    const find = page.getByRole('textbox', { name: 'Find', exact: true });
+    await find.fill('abort');
+    await find.press('Enter');
+    await page.locator('.frame-detail .fields').waitFor();
+    const isInSight = () => page.locator('.frame[data-chosen]').evaluate((row) => {
+      const [one, list] = [row, row.closest('.frames')].map((it) => it.getBoundingClientRect());
+      return one.top >= list.top - 1 && one.bottom <= list.bottom + 1;
+    });
+    await until('the row of the frame', isInSight);
+    for (const [view, table] of [['By CAN-ID', '.ids'], ['Nodes', '.node-list']]) {
+      await page.getByRole('group', { name: 'View' }).getByRole('button', { name: view }).click();
+      await page.locator(`${table} tbody tr`).first().waitFor();
+      await becomes(`pixels beside ${view}`, () => page.locator(table).evaluate((it) => it.scrollWidth - it.clientWidth), 0);
+    }
+  });
+
 check('hidden texts make no page taller than its window', { width: 1280, height: 800 }, async (page) => {
   await booted(page);
   for (const view of ['Hardware', 'EEPROM', 'Shaft']) {

@@ -32,6 +32,7 @@ export const theme = EditorView.theme({
   '.od-prose p': { margin: '0 0 6px' },
   '.od-prose hr': { border: '0', borderTop: '1px solid var(--line)', margin: '8px 0' },
   '.od-prose code': { fontFamily: 'var(--mono)', fontSize: '0.94em' },
+  '.cm-tooltip-hover': { maxHeight: 'min(55dvh, 30em)', overflowY: 'auto' },
   '.cm-tooltip.cm-tooltip-autocomplete > ul': { fontFamily: 'var(--mono)', maxHeight: '14em' },
   '.cm-tooltip-autocomplete ul li[aria-selected]': { background: 'var(--accent)', color: 'var(--on-accent)' },
   '.cm-completionDetail': { fontStyle: 'normal', color: 'var(--ink-2)' },

@@ -57,7 +57,7 @@ class Identifiers extends View {
     });
     const words = wordsOf(shown.map(([key]) => trace.identifiers.get(key!)!.last));
     return html`<div class="ids scroll" tabindex="0" role="region" aria-label=${T.frames.ids}>
-      <table>
+      <table class="ids-table">
         ${head(S.ids.columns, S.ids.titles)}
         <tbody>${shown.map((row, i) => this.row(row, words[i] ?? ''))}</tbody>
       </table>

@@ -13,7 +13,7 @@ class Shelf extends View {
     if (!log) return nothing;
     return html`<span class="segmented" role="group" aria-label=${S.log.shown}>
       <button class="small" aria-pressed=${!log.isShown} @click=${() => show(false)}>${S.log.capture}</button>
-      <button class="small" aria-pressed=${log.isShown} @click=${() => show(true)}>${log.name}</button>
+      <button class="small log-name" aria-pressed=${log.isShown} title=${log.name} @click=${() => show(true)}>${log.name}</button>
       <button class="small" aria-label=${S.log.close(log.name)} title=${S.log.close(log.name)} @click=${close}>${icons.close}</button>
     </span>`;
   }

@@ -22,6 +22,13 @@ const LONG = 44;
 
 const COLUMNS = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'] as const;
 
+/** Calls `resized` when an element has another size; the result ends that. */
+function watched(element: HTMLElement, resized: () => void): () => void {
+  const sizes = new ResizeObserver(resized);
+  sizes.observe(element);
+  return () => sizes.disconnect();
+}
+
 class FrameList extends View {
   private rows: Rows | undefined;
   private follows = true;
@@ -119,6 +126,11 @@ class FrameList extends View {
         if (row < this.count() - 1) this.follows = false;
         this.behind = !this.follows;
         requestAnimationFrame(() => rows.reveal(row));
+      }),
+      // The detail of a frame takes room of the list: its row stays in sight.
+      watched(viewport, () => {
+        const chosen = state.chosenFrame.peek();
+        if (chosen !== null && !this.follows) rows.reveal(trace.rowOf(chosen));
       }),
       effect(() => {
         void refiltered.value;

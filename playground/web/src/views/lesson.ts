@@ -22,16 +22,19 @@ import { View } from './view';
 
 await sheet('lesson');
 
-/** Minimum height of a window in which a lesson shows its introduction in full. */
+/** Minimum height of a window in which a lesson shows its introduction in full, or has room for a lab and a question. */
 const TALL = 900;
-/** Below this height a question is beside its step, not above the checklist. */
+/** Below this height a question of a lesson without a lab is beside its step, not above the checklist. */
 const LOW = 700;
 /** A lesson has a column of its own from this width on; otherwise the page scrolls. */
 const WIDE = 1024;
+/** Below this height the checklist of a narrow window scrolls. */
+const FLAT = 560;
 
 type Step = Lesson['steps'][number];
 
-const isLow = (): boolean => window.innerHeight < LOW && window.innerWidth >= WIDE;
+/** Returns whether a low window or a lab leaves little room: the instructions come first, and a question is beside its step. */
+const isTight = (lesson: Lesson): boolean => window.innerWidth >= WIDE && window.innerHeight < (labsOf(lesson).length > 0 ? TALL : LOW);
 
 const choose = (): void => void (state.lessonDialog.value = true);
 
@@ -161,11 +164,11 @@ class LessonPanel extends View {
     return step.quiz ? html`<od-quiz .quiz=${step.quiz} .short=${isOurs ? (this.short.get(number) ?? '') : ''}></od-quiz>` : nothing;
   }
 
-  private open(step: Step, number: number, progress: LessonState): TemplateResult {
+  private open(step: Step, number: number, progress: LessonState, isBeside: boolean): TemplateResult {
     const t = D.lessons;
     const isLost = progress.step === number && progress.requirements.some(({ lost }) => lost);
-    return html`${isLow() ? nothing : this.quiz(step, number)}
-      <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
+    return html`${isBeside ? nothing : this.quiz(step, number)}
+      <div class="asked"><ul class="checks" tabindex=${window.innerHeight < FLAT && window.innerWidth < WIDE ? 0 : nothing} aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
         (one) => html`<li data-done=${one.holds} ?data-already=${one.already}>${one.holds ? icons.tick : html`<i></i>`}<span>${one.already ? nothing : html`<span class="sr">${one.holds ? t.isDone : t.isOpen}</span>`}${one.text}${one.already ? html` <em>(${t.already})</em>` : nothing}</span></li>`,
       )}</ul>
       ${this.hints < step.hints.length
@@ -190,8 +193,7 @@ class LessonPanel extends View {
     // The reason comes first; the rest can be opened if the window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
     const isFirst = shown === 0 && why !== undefined && why !== '' && !isDone;
-    // The instructions come first if a lab or a low window leaves little room.
-    const isTight = isLow() || (labsOf(lesson).length > 0 && window.innerHeight < TALL && window.innerWidth >= WIDE);
+    const isBeside = isTight(lesson);
     const recall = this.recall ? html`<details class="recall"><summary>${t.recall(this.recall.title)}</summary><od-quiz .quiz=${this.recall}></od-quiz></details>` : nothing;
     const { name } = state.lessonRun.value;
     // A resumed lesson has no name until its run is restored.
@@ -210,7 +212,7 @@ class LessonPanel extends View {
         ${this.foreign(lesson, shown)}
         ${!isFirst
           ? nothing
-          : isTight
+          : isBeside
             ? html`<details><summary>${t.background}</summary><div class="prose">${markdown(lesson.intro)}</div></details>`
             : html`<div class="prose">${markdown(why)}</div>
               ${more.length ? html`<details ?open=${window.innerHeight >= TALL}><summary>${t.background}</summary><div class="prose">${markdown(more.join('\n\n'))}</div></details>` : nothing}
@@ -222,13 +224,13 @@ class LessonPanel extends View {
             <h3><span class="muted num">${shown + 1}</span> ${step.title}</h3>
             ${isDone ? this.done(step, isLast) : html`<div class="prose">${markdown(step.text)}</div>`}
             ${isDone ? nothing : step.hints.slice(0, this.hints).map((hint) => html`<div class="hint prose">${markdown(hint)}</div>`)}
-            ${isDone || !isLow() ? nothing : this.quiz(step, shown)}
-            ${isFirst && isTight ? recall : nothing}
+            ${isDone || !isBeside ? nothing : this.quiz(step, shown)}
+            ${isFirst && isBeside ? recall : nothing}
           </section>`,
         )}
       </div>
       ${beside(lesson)}
-      <footer class="lesson-foot">${keyed(`${state.lessonRun.value.count}/${shown}`, isDone ? this.goOn(shown, isLast) : this.open(step, shown, progress))}</footer>`;
+      <footer class="lesson-foot">${keyed(`${state.lessonRun.value.count}/${shown}`, isDone ? this.goOn(shown, isLast) : this.open(step, shown, progress, isBeside))}</footer>`;
   }
 }
 
