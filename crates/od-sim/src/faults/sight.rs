@@ -327,12 +327,12 @@ impl Sight {
                 let (mut english, mut german) = match share {
                     Share::None => (
                         String::from("no error frames"),
-                        String::from("keine Fehlerframes"),
+                        String::from("keine Error-Frames"),
                     ),
-                    Share::Some => ("some error frames".into(), "einige Fehlerframes".into()),
+                    Share::Some => ("some error frames".into(), "einige Error-Frames".into()),
                     Share::Most => (
                         "most attempts end in error frames".into(),
-                        "die meisten Versuche enden in Fehlerframes".into(),
+                        "die meisten Versuche enden in Error-Frames".into(),
                     ),
                 };
                 if *unacknowledged {

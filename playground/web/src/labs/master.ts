@@ -4,6 +4,7 @@ import { html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import * as state from '../state';
 import type { MasterSlave, MasterState } from '../sim/api';
+import { said } from '../language';
 import { askBus } from '../sim/link';
 import { Lab } from './lab';
 import { L } from './texts';
@@ -41,7 +42,7 @@ class Master extends Lab {
     const failed = await this.play(['master clear', ...orders, 'master boot']);
     const line = failed ? failed.line - 1 : 0;
     // A message quotes lines of a script; a line of the list is without the first word.
-    const why = failed?.why.replaceAll('`master ', '`') ?? '';
+    const why = said(failed?.why.replaceAll('`master ', '`') ?? '');
     this.wrong = failed && line > 0 && line <= lines.length ? L.master.line(line, why) : why;
     if (!failed) this.draft = null;
   }
@@ -71,7 +72,7 @@ class Master extends Lab {
         const at = slave.began[i];
         return html`<li data-state=${is} title=${`${t.objects[i]}: ${t.state[is]}`}><span>${name}</span><small class="num">${at !== undefined && is !== 'open' ? t.after((at - start) / 1000) : t.objects[i]}</small><span class="sr">, ${t.state[is]}</span></li>`;
       })}</ol>
-      ${slave.status ? html`<p class="note" data-tone="error">${t.status(slave.status, slave.meaning)}${slave.reason ? html` <span class="num">(${slave.reason})</span>` : nothing}</p>` : slave.reason ? html`<p class="note" data-tone="error">${slave.reason}</p>` : nothing}
+      ${slave.status ? html`<p class="note" data-tone="error">${t.status(slave.status, said(slave.meaning))}${slave.reason ? html` <span class="num">(${said(slave.reason)})</span>` : nothing}</p>` : slave.reason ? html`<p class="note" data-tone="error">${said(slave.reason)}</p>` : nothing}
       ${slave.dcf ? html`<details><summary>${t.dcf(slave.node)}</summary><code class="num">${slave.dcf}</code></details>` : nothing}
     </section>`;
   }

@@ -25,6 +25,9 @@ test('the words of frames in German; names of objects and values stay', () => {
     ['70000 does not fit UNSIGNED16', '70000 passt nicht in UNSIGNED16'],
     ['“g” is not a hexadecimal digit', '„g“ ist keine hexadezimale Ziffer'],
     ['Node 5: a save failed; the values saved before it remain', 'Knoten 5: ein Speichern ist gescheitert; die Werte, die vorher gespeichert waren, bleiben'],
+    ['the product code (1018h:02) differs from the expected one (1F86h)', 'Der Produktcode (1018h:02) ist nicht wie erwartet (1F86h)'],
+    ['no heartbeat within 250 ms', 'Kein Heartbeat in 250 ms'],
+    ['6001h: SDO abort 06090031h value above the upper limit', '6001h: SDO-Abbruch 06090031h Wert über der oberen Grenze'],
     ['', ''],
   ]) assert.equal(words(english!), german);
   // An abort code that CiA 301 does not define has no text.

@@ -79,6 +79,8 @@ const lssRest = (rest: string): string =>
     .replace(/^, delay (.*)$/, ', Verzögerung $1')
     .replace(/^: (\d+) bytes?, but an LSS message has 8 (.*)$/, ': $1 Bytes, aber eine LSS-Nachricht hat 8 $2');
 
+const IDENTITY: Record<string, string> = { 'device type': 'der Gerätetyp', 'vendor-ID': 'die Vendor-ID', 'product code': 'der Produktcode', 'revision number': 'die Revisionsnummer', 'serial number': 'die Seriennummer' };
+
 /** Words after the node, from the whole text to its parts; the first match applies. `$1` stays as it is. */
 const WORDS: [RegExp, string | ((...parts: string[]) => string)][] = [
   [/^(start|stop|enter Pre-operational|reset node|reset communication) node (\d+)$/, '$1, Knoten $2'],
@@ -120,6 +122,17 @@ const WORDS: [RegExp, string | ((...parts: string[]) => string)][] = [
   [/^(.*) has data, in blocks$/, '$1 hat Daten, in Blöcken'],
   [new RegExp(`^(${commands})([^]*)$`), (_, name, rest) => LSS[name!]! + lssRest(rest!)],
   [/^no command$/, 'kein Kommando'],
+  // The reasons why a master does not start a node.
+  [/^the node is not in the network list \(1F81h\)$/, 'der Knoten ist nicht in der Netzwerkliste (1F81h)'],
+  [/^the node does not respond to the upload of its device type \(1000h\)$/, 'der Knoten antwortet nicht auf den Upload seines Gerätetyps (1000h)'],
+  [/^the (device type|vendor-ID|product code|revision number|serial number) \((.*)\) differs from the expected one \((.*)\)$/, (_, what, is, expected) => `${IDENTITY[what!]!} (${is}) ist nicht wie erwartet (${expected})`],
+  [/^the configuration \(1F22h\) could not be written$/, 'die Konfiguration (1F22h) konnte nicht geschrieben werden'],
+  [/^no heartbeat came when error control began$/, 'es kam kein Heartbeat, als die Überwachung begann'],
+  [/^no heartbeat (?:within|for) (\d+) ms$/, 'kein Heartbeat in $1 ms'],
+  [/^the node has (.*), expected is (.*)$/, 'der Knoten hat $1, erwartet ist $2'],
+  [/^no response comes in time$/, 'die Antwort kommt nicht rechtzeitig'],
+  [/^(.*): SDO abort ([0-9A-F]{8})h(?: (.*))?$/, (_, name, code, english) => `${name}: SDO-Abbruch ${abort(code!, english ?? '')}`],
+  [/^the network list is empty; write `slave (\d+)`$/, 'die Netzwerkliste ist leer; schreib `slave $1`'],
   // A line or a value that is refused.
   [/^the frame is missing$/, 'der Frame fehlt'],
   [/^a CAN frame has at most 8 bytes$/, 'ein CAN-Frame hat höchstens 8 Bytes'],
