@@ -205,7 +205,7 @@ test('a trainer sees who is in a fault case or in the final test, and an offer a
   await anna.getByRole('button', { name: 'Fault cases' }).click();
   await anna.getByRole('button', { name: 'Node 4 does not answer' }).click();
   await becomes('her place', () => cell(0), 'Fault case');
-  await anna.getByRole('radio').first().check();
+  await anna.locator('od-fault-cases').getByRole('radio').first().check();
   await anna.getByRole('button', { name: 'Check my answer' }).click();
   await becomes('it is marked', () => cell(1), 'done');
   await anna.getByRole('button', { name: 'All lessons' }).click();

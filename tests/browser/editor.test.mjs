@@ -177,6 +177,25 @@ check('a file that is no EDS says what it is, and the bench stays', async (page)
   await becomes('the offer', () => page.getByRole('region', { name: 'Offers' }).textContent(), /trace\.txt/);
 });
 
+check('an EDS is written into an empty file, and runs', async (page) => {
+  await drop(page, 'new\u001b\u202e.eds', "''");
+  const report = page.getByRole('alert', { name: 'Findings in the file' });
+  await becomes('what it is', () => report.textContent(), /new\ufffd\ufffd\.eds is empty, not an EDS file of CANopen\. The editor says what a new one needs\./);
+  await report.getByRole('button', { name: 'Open in the editor' }).click();
+  await page.locator('.cm-content').focus();
+  await becomes('what is missing', () => findings(page).allTextContents().then(String), /E0210/);
+  const object = (index, name, type, access) => `[${index}]\nParameterName=${name}\nDataType=${type}\nAccessType=${access}\nDefaultValue=0\n`;
+  const lists = '[MandatoryObjects]\nSupportedObjects=3\n1=0x1000\n2=0x1001\n3=0x1018\n[OptionalObjects]\nSupportedObjects=1\n1=0x1017\n';
+  const identity = '[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n' + object('1018sub0', 'Highest sub-index', 5, 'const').replace('Value=0', 'Value=1') + object('1018sub1', 'Vendor-ID', 7, 'ro');
+  await page.keyboard.insertText(lists + identity + object('1000', 'Device type', 7, 'ro') + object('1001', 'Error register', 5, 'ro') + object('1017', 'Producer heartbeat time', 6, 'rw'));
+  await becomes('no error', () => page.locator('.editor-side').textContent(), /0 errors/);
+  await page.getByRole('button', { name: 'Run it' }).click();
+  await becomes('the device', () => note(page), /Node 1 boots with this text/);
+  await page.getByRole('button', { name: 'Show the bench' }).click();
+  await sdo(page, '1017');
+  await becomes('an object of it', () => sdoNote(page), /1017h = 0/);
+});
+
 check('Enter after a complete word is a new line, also while words are offered', async (page) => {
   await edit(page);
   await to(page, '2800h', 'AccessType');

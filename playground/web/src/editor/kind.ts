@@ -9,6 +9,8 @@ export interface Kind {
   what: string;
   next?: string;
   log?: Log;
+  /** It is empty, so a description can be written into it. */
+  isEmpty?: true;
 }
 
 /** First bytes, as a text with one character for each byte, and the kinds of file that begin with them. */
@@ -34,7 +36,7 @@ const SECTION = /^[ \t]*\[[^\]\r\n]+\]/m;
 /** Kind of the file, or the text of a file that may be an EDS, a DCF or an XDD. */
 export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
   const k = E.kinds;
-  if (bytes.length === 0) return { what: k.empty };
+  if (bytes.length === 0) return { what: k.empty, next: k.write, isEmpty: true };
   const head = Array.from(bytes.subarray(0, HEAD), (byte) => String.fromCharCode(byte)).join('');
   const known = magic(k).find(([pattern]) => pattern.test(head));
   if (known) return known[1];
@@ -42,7 +44,7 @@ export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
   if ('value' in log && log.value.count > 0) return { what: k.log(log.value.count), log: log.value };
   const decoded = await use('decodeEds', bytes);
   const text = 'value' in decoded ? decoded.value : '';
-  if (/^\s*$/.test(text)) return { what: k.blank };
+  if (/^\s*$/.test(text)) return { what: k.blank, next: k.write, isEmpty: true };
   if (/\0/.test(text)) return { what: k.binary };
   const foreign = await use('foreignFile', text);
   if ('value' in foreign && foreign.value) return { what: foreign.value };

@@ -10,8 +10,9 @@ import { kindOf } from './kind';
 export async function openBytes(name: string, bytes: Uint8Array, nodeId: number, place: number | 'new'): Promise<boolean> {
   const kind = await kindOf(bytes);
   if (typeof kind !== 'string') {
-    const { what, next, log } = kind;
-    const action = log ? { text: E.report.asLog, run: () => opened(name, log) } : undefined;
+    const { what, next, log, isEmpty } = kind;
+    const write = (): void => void (state.editing.value = { name, text: '', nodeId, place, at: null });
+    const action = log ? { text: E.report.asLog, run: () => opened(name, log) } : isEmpty ? { text: E.report.edit, run: write } : undefined;
     report({ name, said: E.report.not(name, what, next), isBad: true, device: null, ...(action && { action }) });
     return false;
   }

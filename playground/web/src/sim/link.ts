@@ -114,7 +114,7 @@ export const askBus = async <K extends keyof Questions>(name: K, ...args: Parame
 
 /** Calls the whole module; returns the result, or the reason why it failed. */
 export const use = <K extends keyof Tools>(name: K, ...args: Parameters<Tools[K]>): Promise<{ value: ReturnType<Tools[K]> } | { error: string }> =>
-  ask((ticket) => ({ op: 'tool', ticket, name, args }), { error: T.app.unloaded });
+  ask((ticket) => ({ op: 'tool', ticket, name, args }), { error: T.app.ended });
 
 /** Calls `listener` with every snapshot and the number of its first frame. */
 export function listen(listener: (snapshot: Snapshot, first: number) => void): () => void {

@@ -105,7 +105,7 @@ export const bus = {
     bytes: (count: number) => `${count} byte${count === 1 ? '' : 's'}`,
     aboutOther: 'This is a CANopen device on a CAN bus, simulated in your browser: to read, set up and break.',
     about: 'This is a CANopen encoder on a CAN bus, simulated in your browser: a device to read, set up, turn and break.',
-    node: (node: number) => `Node ${node} is on the bus. Turn the shaft, type a frame below, or try:`,
+    node: (node: number, hasShaft: boolean) => `Node ${node} is on the bus. ${hasShaft ? 'Turn the shaft, type' : 'Type'} a frame below, or try:`,
     position: 'Read the position',
     start: 'Start the node',
     heartbeat: 'Heartbeat every second',

@@ -26,6 +26,7 @@ export const editor = {
     pdf: 'a PDF document',
     zip: 'a ZIP archive',
     unpack: 'Unpack it, then open the EDS file in it. ',
+    write: 'The editor says what a new one needs. ',
     blank: 'a text without any content',
     archive: (format: string) => `an archive (${format})`,
     program: 'a program',

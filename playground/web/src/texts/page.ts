@@ -19,6 +19,7 @@ export const page = {
     tooMany: (most: number, all: number) => `The address names ${all} devices. The page starts with the first ${most}.`,
     noDevice: (name: string) => `No built-in device is named “${name}”. The page starts with gxmm.`,
     unloaded: 'the worker could not be loaded',
+    ended: 'it took too long, or it needs too much memory',
   },
   tour: {
     begin: '60-second tour',

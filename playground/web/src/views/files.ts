@@ -20,7 +20,14 @@ async function openLog(name: string, bytes: Uint8Array): Promise<void> {
   else opened(name, read.value);
 }
 
-export async function openFile(file: File, nodeId: number, place: number | 'new'): Promise<boolean> {
+/** The file with a name that can be shown: without characters that control the text around it. */
+function plain(file: File): File {
+  const name = file.name.replaceAll(/\p{C}/gu, '\ufffd');
+  return name === file.name ? file : new File([file], name, { type: file.type });
+}
+
+export async function openFile(given: File, nodeId: number, place: number | 'new'): Promise<boolean> {
+  const file = plain(given);
   if (LOG.test(file.name) && file.size < LONGEST_LOG) {
     await openLog(file.name, new Uint8Array(await file.arrayBuffer()));
     return true;

@@ -242,9 +242,10 @@ class FrameList extends View {
     const node = state.nodeId.value;
     const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
     const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0 }, bytes);
+    const hasShaft = state.status.value?.shaft !== null;
     return html`<div class="hints">
-      <p class="about">${state.status.value?.shaft === null ? T.send.aboutOther : T.send.about}</p>
-      <p>${T.send.node(node)}</p>
+      <p class="about">${hasShaft ? T.send.about : T.send.aboutOther}</p>
+      <p>${T.send.node(node, hasShaft)}</p>
       <div>
         ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>${T.send.position}</button>` : nothing}
         <button class="small" @click=${() => sendLine('nmt start')}>${T.send.start}</button>

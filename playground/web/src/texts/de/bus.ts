@@ -107,7 +107,7 @@ export const bus = {
     bytes: (count) => `${count} Byte${count === 1 ? '' : 's'}`,
     aboutOther: 'Das ist ein CANopen-Gerät an einem CAN-Bus, in deinem Browser simuliert: zum Lesen, Einstellen und Kaputtmachen.',
     about: 'Das ist ein CANopen-Encoder an einem CAN-Bus, in deinem Browser simuliert: ein Gerät zum Lesen, Einstellen, Drehen und Kaputtmachen.',
-    node: (node) => `Knoten ${node} ist am Bus. Dreh die Welle, gib unten einen Frame ein, oder probier:`,
+    node: (node, hasShaft) => `Knoten ${node} ist am Bus. ${hasShaft ? 'Dreh die Welle, gib' : 'Gib'} unten einen Frame ein, oder probier:`,
     position: 'Position lesen',
     start: 'Knoten starten',
     heartbeat: 'Heartbeat jede Sekunde',

@@ -28,6 +28,7 @@ export const editor = {
     picture: (format) => `ein Bild (${format})`,
     pdf: 'ein PDF-Dokument',
     zip: 'ein ZIP-Archiv',
+    write: 'Der Editor sagt, was eine neue braucht. ',
     unpack: 'Entpacke es und öffne dann die EDS-Datei darin. ',
     blank: 'ein Text ohne Inhalt',
     archive: (format) => `ein Archiv (${format})`,

@@ -21,6 +21,7 @@ export const page = {
     tooMany: (most, all) => `Die Adresse nennt ${all} Geräte. Die Seite beginnt mit den ersten ${most}.`,
     noDevice: (name) => `Kein eingebautes Gerät heißt „${name}“. Die Seite beginnt mit gxmm.`,
     unloaded: 'der Worker konnte nicht geladen werden',
+    ended: 'es hat zu lange gedauert oder braucht zu viel Speicher',
   },
   tour: {
     begin: 'Rundgang in 60 Sekunden',
