@@ -40,7 +40,8 @@ pub(crate) struct Args {
     /// Read all objects even if the node stores its own EDS (1021h)
     #[arg(long)]
     ignore_stored: bool,
-    /// Probe limits by writing values, and restore the values, also after Ctrl-C
+    /// Probe limits by writing values, and restore the values, also after Ctrl-C; a node in
+    /// Pre-operational that does not respond to LSS is asked again in Stopped
     #[arg(long)]
     allow_writes: bool,
     /// Also record the behaviour for `odkit sim`: responses, refused reads, values that change,

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use od_eds::{Description, ObjectDescription, Section, Spanned, Value};
 use od_wire::NodeId;
 
+use super::probe::Lss;
+
 /// Options of [`learn`](super::learn()).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Options {
@@ -59,7 +61,7 @@ pub(super) fn sections(
     objects: &BTreeMap<u16, ObjectDescription>,
     node: NodeId,
     options: &Options,
-    has_lss: bool,
+    lss: Lss,
     faults: &[String],
 ) -> Vec<Section> {
     let writes = options.writes;
@@ -112,7 +114,7 @@ pub(super) fn sections(
         ("GroupMessaging", "0".into()),
         ("NrOfRXPDO", pdos(0x1400)),
         ("NrOfTXPDO", pdos(0x1800)),
-        ("LSS_Supported", u8::from(has_lss).to_string()),
+        ("LSS_Supported", u8::from(lss == Lss::Yes).to_string()),
     ]);
     let mut lines = vec![
         format!("Learned by odkit from node {}.", node.raw()),
@@ -123,6 +125,16 @@ pub(super) fn sections(
             "Limits were not probed (--allow-writes).".to_owned()
         },
     ];
+    if lss == Lss::Unknown {
+        let how = if writes {
+            "it did not show Pre-operational, so it was not stopped"
+        } else {
+            "--allow-writes also asks it in Stopped"
+        };
+        lines.push(format!(
+            "Not known: LSS, as the node did not respond to it in its NMT state; {how}."
+        ));
+    }
     lines.extend(faults.iter().cloned());
     let count = ("Lines".to_owned(), lines.len().to_string());
     let numbered = (1..).zip(lines);

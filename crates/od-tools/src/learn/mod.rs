@@ -70,7 +70,8 @@ pub fn learn(
         .collect();
     let profiles = Profiles::of(low_word(&all, 0x1000), &lengths);
     let version = low_word(&all, 0x6507);
-    let has_lss = probe.has_lss(&identity(&all))?;
+    let heartbeat = low_word(&all, 0x1017);
+    let lss = probe.lss(&identity(&all), heartbeat, options.writes)?;
     let mut left = None;
     let mut objects = BTreeMap::new();
     for (index, found) in &mut all {
@@ -83,7 +84,7 @@ pub fn learn(
         objects.insert(*index, object);
     }
     map(&mut objects);
-    let sections = file::sections(&objects, node, &options, has_lss, &probe.faults);
+    let sections = file::sections(&objects, node, &options, lss, &probe.faults);
     let mut description = Description { sections, objects };
     file::allow_errors(&mut description);
     Ok(Learned {

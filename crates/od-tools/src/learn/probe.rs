@@ -1,15 +1,18 @@
 //! Requests that find the properties of one value.
 
+use od_client::watch;
 use od_eds::outline::specified;
 use od_model::Address;
 use od_wire::AbortCode::{
     InvalidCommand, NoObject, NoSubIndex, ReadOnly, UnsupportedAccess, WriteOnly,
 };
+use od_wire::nmt::{Command, State};
 use od_wire::{CanId, Duration, Frame, NodeId, lss, sdo};
 
 use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
+use crate::nmt;
 
 /// A value with the properties that the node shows.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -40,6 +43,10 @@ const DEVICE_TYPE: Address = Address::new(0x1000, 0);
 const BEYOND: u8 = 0xFE;
 /// Maximum time to wait for the response of a selected LSS slave.
 const SELECTED: Duration = Duration::from_millis(200);
+/// Maximum time to wait for the response to a request of node guarding.
+const GUARDED: Duration = Duration::from_millis(200);
+/// Time in which a node follows an NMT command.
+const SETTLE: Duration = Duration::from_millis(100);
 
 /// A length that no string of a device has.
 const LONG: u32 = 1 << 16;
@@ -58,6 +65,15 @@ pub(super) enum There {
     NoObject,
     NoSubIndex,
     Value(FoundObject),
+}
+
+/// Whether the node is an LSS slave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Lss {
+    Yes,
+    No,
+    /// It did not respond in its NMT state, and was not stopped.
+    Unknown,
 }
 
 /// Asks one node.
@@ -195,11 +211,69 @@ impl<L: Link> Probe<L> {
         }
     }
 
-    /// Returns whether an LSS slave has this LSS address. The slave is in LSS waiting state afterwards.
-    pub(super) fn has_lss(&mut self, identity: &Option<[u32; 4]>) -> Result<bool, Error> {
+    /// Finds out whether the node is an LSS slave. Some respond in Stopped only, so a node in Pre-operational is stopped
+    /// for a moment if `may_stop`. `heartbeat` is its producer heartbeat time in milliseconds.
+    pub(super) fn lss(
+        &mut self,
+        identity: &Option<[u32; 4]>,
+        heartbeat: u16,
+        may_stop: bool,
+    ) -> Result<Lss, Error> {
         let Some(identity) = identity else {
-            return Ok(false);
+            return Ok(Lss::No);
         };
+        if self.is_selected(identity)? {
+            return Ok(Lss::Yes);
+        }
+        if !may_stop || self.shown_state(heartbeat)? != Some(State::PreOperational) {
+            return Ok(Lss::Unknown);
+        }
+        let node = Some(self.node);
+        let link = self.master.link();
+        let stopped = nmt::command(link, node, Command::Stop, SETTLE);
+        let is_slave = stopped.and_then(|_| self.is_selected(identity));
+        let link = self.master.link();
+        // After Ctrl-C, too.
+        link.resume();
+        nmt::command(link, node, Command::EnterPreOperational, SETTLE)?;
+        Ok(if is_slave? { Lss::Yes } else { Lss::No })
+    }
+
+    /// As [`state`](Self::state); a node without heartbeat and node guarding gets a heartbeat for a moment.
+    fn shown_state(&mut self, heartbeat: u16) -> Result<Option<State>, Error> {
+        let shown = self.state(heartbeat)?;
+        let time = Address::new(0x1017, 0);
+        if shown.is_some() || heartbeat > 0 || !self.write(time, &[50, 0])? {
+            return Ok(shown);
+        }
+        let shown = self.state(50);
+        self.resume();
+        self.put_back(time, &[0, 0])?;
+        shown
+    }
+
+    /// The NMT state, by the heartbeat, or without one by node guarding; `None` if the node shows neither.
+    fn state(&mut self, heartbeat: u16) -> Result<Option<State>, Error> {
+        let node = self.node;
+        let link = self.master.link();
+        if heartbeat == 0
+            && let Some(request) = Frame::remote(node.plus(0x700), 1)
+        {
+            link.send(&request)?;
+        }
+        let until = link.now() + GUARDED + Duration::from_millis(heartbeat.into());
+        while let Some(heard) = link.receive(until)? {
+            match watch::parse(&heard.frame) {
+                Some((from, state)) if from == node => return Ok(Some(state)),
+                _ if heard.at > until => break,
+                _ => {}
+            }
+        }
+        Ok(None)
+    }
+
+    /// Returns whether an LSS slave has this LSS address. The slave is in LSS waiting state afterwards.
+    fn is_selected(&mut self, identity: &[u32; 4]) -> Result<bool, Error> {
         let link = self.master.link();
         let mut tell = |request: lss::Request| {
             let id = CanId::standard(lss::MASTER);

@@ -12,6 +12,7 @@ use od_tools::compare::compare;
 use od_tools::learn::{Options, Stored, Today, learn, stored};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
+use od_wire::nmt::Command;
 use od_wire::{Frame, Instant, NodeId};
 
 use crate::simulated::{alone, bus};
@@ -333,6 +334,79 @@ fn a_node_that_stops_while_limits_are_probed_is_still_learned() {
         "LSS_Supported=0",
     ] {
         assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
+/// The lines about LSS in the file of this device, which then is in the same NMT state as before.
+fn lss_lines(device: VirtualDevice, start: bool, writes: bool) -> Vec<String> {
+    let mut bus = alone(device);
+    // The start of the device.
+    let now = bus.now();
+    bus.advance(now.plus_millis(3000));
+    if start {
+        let start = od_client::nmt::frame(Some(NodeId::ONE), Command::Start);
+        OnBench(&mut bus).send(&start).expect("a bench");
+        let now = bus.now();
+        bus.advance(now.plus_millis(10));
+    }
+    let before = bus.devices()[0].state();
+    let options = Options {
+        writes,
+        ..Options::default()
+    };
+    let made = learn(OnBench(&mut bus), NodeId::ONE, options, |_| {}).expect("a device");
+    let now = bus.now();
+    bus.advance(now.plus_millis(10));
+    assert_eq!(bus.devices()[0].state(), before);
+    let text = od_eds::write(&made.description);
+    let lines = text.lines().filter(|line| line.contains("LSS"));
+    lines.map(|line| line.trim().to_owned()).collect()
+}
+
+/// The three families respond to LSS in Stopped only.
+#[test]
+fn lss_is_also_looked_for_in_stopped_if_the_node_may_be_stopped() {
+    for name in ["gxmm", "eam_mt", "en580c"] {
+        let device = || VirtualDevice::new(od_devices::find(name).expect("a device"), NodeId::ONE);
+        assert_eq!(
+            lss_lines(device(), false, true),
+            ["LSS_Supported=1"],
+            "{name}"
+        );
+        for (start, writes, why) in [
+            (false, false, "--allow-writes"),
+            (true, true, "did not show Pre-operational"),
+        ] {
+            let lines = lss_lines(device(), start, writes);
+            let [supported, comment] = &lines[..] else {
+                panic!("{name}: {lines:?}");
+            };
+            assert_eq!(supported, "LSS_Supported=0", "{name}");
+            assert!(
+                comment.contains("Not known: LSS") && comment.contains(why),
+                "{name}: {comment}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_node_without_lss_and_one_with_lss_in_every_state_are_told_apart() {
+    let text = include_str!("../../../../firmware/eds/ds301.eds");
+    let lss = text.replace("LSS_Supported=0", "LSS_Supported=1");
+    for (text, writes, wanted) in [
+        (text, true, "LSS_Supported=0"),
+        (&*lss, false, "LSS_Supported=1"),
+    ] {
+        let (device, _) = VirtualDevice::read_eds(
+            text,
+            EdsOptions {
+                node_id: None,
+                lenient: true,
+            },
+        );
+        let lines = lss_lines(device.expect("a device"), false, writes);
+        assert_eq!(lines, [wanted]);
     }
 }
 

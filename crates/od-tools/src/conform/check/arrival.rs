@@ -4,8 +4,8 @@ use od_model::Address;
 use od_wire::Instant;
 
 use super::motion::{
-    Axis, CHANGE, DECELERATION, ENABLE, HALT, HOMING, MOVE, PROFILE_POSITION, PROFILE_VELOCITY,
-    REACHED, READY, START, SWITCHED_ON, each,
+    Axis, CHANGE, CYCLIC_POSITION, DECELERATION, ENABLE, HALT, HOMING, MOVE, PROFILE_POSITION,
+    PROFILE_VELOCITY, REACHED, READY, START, SWITCHED_ON, each,
 };
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, at_least_one, ensure, lacks};
@@ -33,6 +33,45 @@ pub(super) fn velocity_window_time(dut: &mut Dut<'_>) -> Checked {
         // Until now the axis was at its target, 0.
         dut.wait(10_000)?;
         reaches_after(axis, dut, 0x606C, pace, window, 0x606E)
+    })
+}
+
+/// In cyclic synchronous position mode an axis takes the time of 60C2h from one target position to the next.
+pub(super) fn interpolation_time(dut: &mut Dut<'_>) -> Checked {
+    each(dut, CYCLIC_POSITION, |dut, axis| {
+        let [value, index] = [1, 2].map(|sub| Address::new(0x60C2 + axis.0, sub));
+        for address in [value, index] {
+            dut.keep(address)?;
+        }
+        // Mantissa, exponent and milliseconds. The axis has another target position after each.
+        for (mantissa, exponent, millis) in [(250u8, -3i8, 250), (25, -2, 250), (2, -3, 2)] {
+            let exponent = exponent.to_le_bytes();
+            if dut.download(index, &exponent)?.is_err()
+                || dut.download(value, &[mantissa])?.is_err()
+            {
+                return lacks(format!(
+                    "the drive has no interpolation time of {millis} ms"
+                ));
+            }
+            let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+            let window = axis.window(dut, 0x6067)?.max(way / 10);
+            let begin = dut.now();
+            axis.set(dut, 0x607A, from + way)?;
+            axis.comes_to(dut, 0x6064, from + way, window, "after its target position")?;
+            let took = dut.now().micros_since(begin) / 1000;
+            ensure(
+                took + dut.rig.slack() / 1000 >= millis / 2,
+                format!(
+                    "a movement of {millis} ms to the next target position, by {value} and {index}"
+                ),
+                format!("it took {took} ms"),
+            )?;
+            if millis == 2 {
+                continue;
+            }
+            dut.wait(200_000)?;
+        }
+        Ok(())
     })
 }
 

@@ -1,6 +1,6 @@
 //! Block transfers, which a server does not have to support.
 
-use od_model::{Address, values};
+use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{
     self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence, NoObject, ReadOnly,
     UnsupportedAccess,
@@ -137,13 +137,18 @@ fn read(dut: &mut Dut<'_>, address: Address, mut how: How) -> Checked<Vec<u8>> {
 
 fn same(dut: &mut Dut<'_>, how: How) -> Checked {
     let (address, bytes) = long_value(dut)?;
+    carries(dut, address, &bytes, how)?;
+    dut.still_serves()
+}
+
+/// Fails unless a block upload has these bytes.
+fn carries(dut: &mut Dut<'_>, address: Address, bytes: &[u8], how: How) -> Checked {
     let again = read(dut, address, how)?;
     ensure(
         again == bytes,
-        values::hex(&bytes),
+        format!("{} in {address}", values::hex(bytes)),
         format!("{} came", values::hex(&again)),
-    )?;
-    dut.still_serves()
+    )
 }
 
 pub(super) fn upload(dut: &mut Dut<'_>) -> Checked {
@@ -151,7 +156,20 @@ pub(super) fn upload(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn upload_crc(dut: &mut Dut<'_>) -> Checked {
-    same(dut, How { crc: true, ..PLAIN })
+    let how = How { crc: true, ..PLAIN };
+    same(dut, how)?;
+    // Other lengths: a last segment that is full, and a value that fits a segment.
+    let entries = dut.eds.dictionary().entries();
+    let texts = entries.filter(|one| one.access.readable() && one.data_type.size().is_none());
+    for entry in texts.take(8).collect::<Vec<Entry>>() {
+        if let Ok(bytes) = dut.upload(entry.address)?
+            && !bytes.is_empty()
+        {
+            let done = carries(dut, entry.address, &bytes, how);
+            dut.fault(done)?;
+        }
+    }
+    Ok(())
 }
 
 /// Uploads with a block for each segment.

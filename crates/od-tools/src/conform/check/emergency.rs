@@ -287,6 +287,48 @@ pub(super) fn again(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
+/// Most errors that [`history_full`] causes.
+const ERRORS: u64 = 17;
+
+/// An error once more than 1003h has entries: 1003h:00 counts each one up to that number.
+pub(super) fn history_full(dut: &mut Dut<'_>) -> Checked {
+    let entries = dut.eds.dictionary().entries();
+    let own = entries.filter(|one| one.address.index == HISTORY.index);
+    let room: u64 = own.map(|one| one.address.sub).max().unwrap_or(0).into();
+    dut.write(HISTORY, &[0])?;
+    let (node, _) = provoked(dut)?;
+    for errors in 1..=(room + 1).min(ERRORS) {
+        let count = dut.number(HISTORY.index, 0)?;
+        let mut counted = 0;
+        for sub in 1..=count.min(254) as u8 {
+            let error = dut.number(HISTORY.index, sub)? & 0xFFFF;
+            counted += u64::from(error == 0x8130);
+        }
+        // A node may also have an entry for the end of an error.
+        let is_full = count == room && counted <= errors;
+        ensure(
+            is_full || counted == errors && count < room,
+            format!(
+                "{} entries of 8130h in 1003h, {room} entries at most, after {errors} errors",
+                errors.min(room)
+            ),
+            format!("{counted} of {count} entries were 8130h"),
+        )?;
+        for _ in 0..5 {
+            beat(dut, node)?;
+            dut.wait(50_000)?;
+        }
+        dut.drain()?;
+        if emcy(dut, 0x8130, 1_000_000)?.is_none() {
+            return fail(
+                "EMCY 8130h for each missing heartbeat",
+                format!("none came after {errors}"),
+            );
+        }
+    }
+    Ok(())
+}
+
 pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     let address = Address::new(0x1014, 0);
     let raw = dut.number(0x1014, 0)? as u32;

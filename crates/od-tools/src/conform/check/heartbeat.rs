@@ -224,29 +224,37 @@ pub(super) fn consumer_waits(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn consumer_twice(dut: &mut Dut<'_>) -> Checked {
-    if !dut.eds.writes(0x1016, 2) {
-        return lacks("1016h has one entry");
-    }
+    let others = consumers(dut)?.split_off(1);
     let node = watch(dut, 200)?;
-    let second = Address::new(0x1016, 2);
-    dut.keep(second)?;
-    dut.refuses_value(second, &[200, 0, node, 0], &[AbortCode::Incompatible])
+    for address in others {
+        dut.keep(address)?;
+        let done = dut.refuses_value(address, &[200, 0, node, 0], &[AbortCode::Incompatible]);
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
-/// Each entry of 1016h monitors a node: the first sixteen and the last.
-pub(super) fn consumer_each(dut: &mut Dut<'_>) -> Checked {
-    let subs: Vec<u8> = (1..=127)
+/// The entries of 1016h that can be written, at least two: the first sixteen and the last.
+fn consumers(dut: &Dut<'_>) -> Checked<Vec<Address>> {
+    let mut all: Vec<Address> = (1..=127)
         .filter(|sub| dut.eds.writes(0x1016, *sub))
+        .map(|sub| Address::new(0x1016, sub))
         .collect();
-    if subs.len() < 2 {
+    if all.len() < 2 {
         return lacks("1016h has one entry");
     }
+    if all.len() > 17 {
+        all.drain(16..all.len() - 1);
+    }
+    Ok(all)
+}
+
+/// Each entry of 1016h monitors a node.
+pub(super) fn consumer_each(dut: &mut Dut<'_>) -> Checked {
+    let all = consumers(dut)?;
     sends_emcy(dut)?;
     let node = watched(dut);
-    let last = subs.last().copied();
-    let some = subs.iter().copied().take(16);
-    for sub in some.chain(last.filter(|_| subs.len() > 16)) {
-        let address = Address::new(0x1016, sub);
+    for address in all {
         let before = dut.keep(address)?;
         dut.write(address, &[200, 0, node, 0])?;
         dut.nmt(Command::Start)?;

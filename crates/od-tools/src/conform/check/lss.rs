@@ -209,6 +209,13 @@ pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
             );
         }
         None => {
+            let wide = [vendor, product, 0, u32::MAX, 0, u32::MAX];
+            if identified(dut, wide)?.is_some() {
+                return fail(
+                    "LSS response 4F to ranges that begin and end with the numbers of the node",
+                    "only a wider range has a response",
+                );
+            }
             return lacks(
                 "the node does not answer LSS identify remote slave; one that has fastscan need not",
             );
@@ -497,7 +504,9 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
         index: 0x55,
     };
     answers.push((ask(dut, timing)?, 3));
-    answers.push((ask(dut, Request::Inquire { part: Part::Vendor })?, 5));
+    for part in Part::ALL {
+        answers.push((ask(dut, Request::Inquire { part })?, 5));
+    }
     let node_id = dut.node.raw();
     answers.push((ask(dut, Request::ConfigureNodeId { node_id })?, 3));
     waiting(dut)?;

@@ -173,8 +173,8 @@ pub(super) fn refuses_while_on(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
 }
 
 pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
-    let pdo = first(dut)?;
-    refuses_too_many(dut, pdo)
+    first(dut)?;
+    each(dut, 0x1800, refuses_too_many)
 }
 
 /// The PDO refuses 65 mapped objects, and more than its mapping has entries.
@@ -220,8 +220,10 @@ pub(super) fn raw(entry: &Entry) -> u32 {
 }
 
 pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
-    let pdo = first(dut)?;
-    refuses_too_long(dut, pdo, Entry::maps_to_tpdo)
+    first(dut)?;
+    each(dut, 0x1800, |dut, pdo| {
+        refuses_too_long(dut, pdo, Entry::maps_to_tpdo)
+    })
 }
 
 /// The PDO refuses more than 64 bits.
@@ -254,8 +256,8 @@ pub(super) fn refuses_too_long(
 }
 
 pub(super) fn missing_object(dut: &mut Dut<'_>) -> Checked {
-    let pdo = first(dut)?;
-    refuses_missing(dut, pdo)
+    first(dut)?;
+    each(dut, 0x1800, refuses_missing)
 }
 
 /// The PDO refuses an object that the EDS does not have.
@@ -278,8 +280,10 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn wrong_length(dut: &mut Dut<'_>) -> Checked {
-    let pdo = first(dut)?;
-    refuses_wrong_length(dut, pdo, Entry::maps_to_tpdo)
+    first(dut)?;
+    each(dut, 0x1800, |dut, pdo| {
+        refuses_wrong_length(dut, pdo, Entry::maps_to_tpdo)
+    })
 }
 
 /// The PDO refuses more bits than an object has.
@@ -299,6 +303,15 @@ pub(super) fn refuses_wrong_length(
 
 /// Every valid PDO from the communication parameter `base` on refuses this mapping entry.
 pub(super) fn each_refuses(dut: &mut Dut<'_>, base: u16, entry: u32) -> Checked {
+    each(dut, base, |dut, pdo| refused_by(dut, pdo, entry))
+}
+
+/// Tests every valid PDO from the communication parameter `base` on. The case applies if it applies to one of them.
+pub(super) fn each(
+    dut: &mut Dut<'_>,
+    base: u16,
+    test: impl Fn(&mut Dut<'_>, Tpdo) -> Checked,
+) -> Checked {
     let mut any = false;
     for number in dut.eds.pdos(base) {
         let com = base + number;
@@ -307,7 +320,7 @@ pub(super) fn each_refuses(dut: &mut Dut<'_>, base: u16, entry: u32) -> Checked 
         if !is_on(cob_id) || contradiction(dut.eds, &all, base == 0x1800).is_some() {
             continue;
         }
-        match refused_by(dut, Tpdo { com, cob_id }, entry) {
+        match test(dut, Tpdo { com, cob_id }) {
             Err(End::NotApplicable(_)) => {}
             done => {
                 dut.fault(done)?;

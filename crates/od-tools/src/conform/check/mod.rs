@@ -25,6 +25,7 @@ mod transmit;
 
 use od_wire::nmt::Command;
 
+use self::store::Apart;
 use super::dut::Dut;
 use super::end::Checked;
 
@@ -522,6 +523,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.2.7.1: An error causes one EMCY message, and its end another.").applies("1014h, 1016h"),
         check("emcy-again", emergency::again,
             "CiA 301 7.2.7.1: An error that occurs again is reported again.").applies("1014h, 1016h"),
+        check("emcy-history-full", emergency::history_full,
+            "CiA 301 7.5.2.4: 1003h:00 counts each error up to the number of entries.").applies("1003h rw, 1014h, 1016h"),
+        check("emcy-second-error", rpdo::second_error,
+            "CiA 301 7.2.7.1: An error is reported while another one is present, and both end.").applies("1014h, 1016h, 1029h:01 rw, rpdo").needs("reset"),
         check("emcy-off", emergency::off,
             "CiA 301 7.5.2.17: Bit 31 of 1014h disables EMCY messages until it is 0 again.").applies("1014h rw, 1016h"),
         check("emcy-not-in-stopped", emergency::not_in_stopped,
@@ -608,6 +613,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 401 6002h: 6002h inverts the digital inputs of 6000h.").applies("cia401, 6000h:01, 6002h:01").needs("reset"),
         check("module-outputs", outputs::hold,
             "CiA 401 6200h: A digital output holds the value that was written.").applies("cia401, 6200h:01 rw").needs("motion"),
+        check("module-analogue-outputs", outputs::analogue_hold,
+            "CiA 401 6411h: An analogue output holds the value that was written, and has another one for each.").applies("cia401, 6411h:01 rw").needs("motion"),
         check("module-output-polarity", outputs::polarity,
             "CiA 401 6202h: 6202h inverts a digital output.").applies("cia401, 6000h:01, 6200h:01 rw, 6202h:01 rw").needs("motion"),
         check("module-output-mask", outputs::filter_mask,
@@ -624,6 +631,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 401 6443h: After an error of communication, an analogue output has the value of 6444h if its 6443h is 1, and otherwise keeps its value.").applies("cia401, 6401h:01, 6411h:01 rw, 6443h:01 rw, 6444h:01 rw, 1016h:01 rw").needs("motion"),
         check("module-delta", outputs::delta,
             "CiA 401 6426h: An analogue input sends its event-driven TPDO when it changed by the delta.").applies("cia401, 6401h:01, 6411h:01 rw, 6421h:01 rw, 6423h rw, 6426h:01 rw").needs("motion"),
+        check("module-delta-direction", outputs::delta_direction,
+            "CiA 401 6427h: An analogue input sends its event-driven TPDO when it fell by the delta of 6427h or rose by that of 6428h, as 6421h says.").applies("cia401, 6401h:01, 6411h:01 rw, 6421h:01 rw, 6423h rw, 6426h:01 rw, 6427h:01 rw").needs("motion"),
     ]),
     ("CiA 402", &[
         check("drive-objects", drive::objects,
@@ -658,6 +667,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 402 607Eh: Bit 6 of 607Eh turns the direction of a target velocity.").applies("cia402, 6040h rw, 6064h, 606Ch, 607Eh rw, 60FFh rw").needs("motion"),
         check("drive-cyclic-position", motion::cyclic_position,
             "CiA 402 607Ah: In cyclic synchronous position mode, 6064h follows 607Ah.").applies("cia402, 6040h rw, 6064h, 607Ah rw").needs("motion"),
+        check("drive-interpolation-time", arrival::interpolation_time,
+            "CiA 402 60C2h: In cyclic synchronous position mode an axis takes the time of 60C2h to the next target position.").applies("cia402, 6040h rw, 6064h, 607Ah rw, 60C2h:01 rw, 60C2h:02 rw").needs("motion"),
         check("drive-cyclic-velocity", motion::cyclic_velocity,
             "CiA 402 60FFh: In cyclic synchronous velocity mode, 606Ch follows 60FFh.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
         check("drive-interpolated", motion::interpolated,
@@ -724,8 +735,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.13: 1010h:02 saves the communication parameters.").applies("1010h:02").needs("reset, store"),
         check("store-all", store::save_all,
             "CiA 301 7.5.2.13: Every changed communication parameter is saved, and the save itself changes none.").applies("1010h:01").needs("reset, store"),
-        check("store-application", store::save_application,
+        check("store-application", |dut| store::save_apart(dut, Apart::Application),
             "CiA 301 7.5.2.13: 1010h:03 saves the parameters of the application, and 1010h:02 does not.").applies("1010h:01, 1010h:02, 1010h:03").needs("reset, store"),
+        check("store-manufacturer", |dut| store::save_apart(dut, Apart::Manufacturer),
+            "CiA 301 7.5.2.13: 1010h:04 saves the parameters of the manufacturer, and 1010h:02 does not.").applies("1010h:01, 1010h:02, 1010h:04").needs("reset, store"),
         check("store-mapping", store::save_mapping,
             "CiA 301 7.5.2.13: CAN-ID and mapping of a TPDO are saved.").applies("tpdo, 1010h:01").needs("reset, store"),
         check("store-twice", store::save_twice,
@@ -744,10 +757,14 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.14: 1011h:01 says that the node restores.").applies("1011h:01"),
         check("restore-signature", |dut| store::wrong_signature(dut, 0x1011),
             "CiA 301 7.5.2.14: A wrong signature restores nothing: 08000020h.").applies("1011h:01"),
+        check("restore-signatures", store::wrong_signatures,
+            "CiA 301 7.5.2.14: The signature of 1010h, capital letters and another order of the bytes restore nothing: 08000020h.").applies("1011h:01, 1010h:01").needs("reset, store"),
         check("restore-load", store::load,
             "CiA 301 7.5.2.14: After a restore and a reset the defaults are there.").applies("1011h:01, 1010h:01").needs("reset, store"),
-        check("restore-application", store::load_application,
+        check("restore-application", |dut| store::load_apart(dut, Apart::Application),
             "CiA 301 7.5.2.14: 1011h:03 restores the parameters of the application, and 1011h:02 does not.").applies("1010h:01, 1011h:02, 1011h:03").needs("reset, store"),
+        check("restore-manufacturer", |dut| store::load_apart(dut, Apart::Manufacturer),
+            "CiA 301 7.5.2.14: 1011h:04 restores the parameters of the manufacturer, and 1011h:02 does not.").applies("1010h:01, 1011h:02, 1011h:04").needs("reset, store"),
         check("restore-load-communication", store::load_communication,
             "CiA 301 7.5.2.14: 1011h:02 restores the communication parameters.").applies("1011h:02, 1010h:02").needs("reset, store"),
         check("restore-all", store::load_all,

@@ -20,7 +20,7 @@ const WAY: i64 = 1000;
 pub(super) const PROFILE_POSITION: i8 = 1;
 pub(super) const PROFILE_VELOCITY: i8 = 3;
 pub(super) const HOMING: i8 = 6;
-const CYCLIC_POSITION: i8 = 8;
+pub(super) const CYCLIC_POSITION: i8 = 8;
 const CYCLIC_VELOCITY: i8 = 9;
 const INTERPOLATED: i8 = 7;
 

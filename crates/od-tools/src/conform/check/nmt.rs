@@ -311,10 +311,30 @@ pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn unknown_command(dut: &mut Dut<'_>) -> Checked {
     dut.follow_state()?;
     let node = dut.node.raw();
-    for command in [0, 3, 0x7F, 0x83, 0xFF] {
-        dut.send(Frame::standard(0, &[command, node]))?;
-        dut.wait(20_000)?;
-        dut.is_in(PRE_OPERATIONAL)?;
+    let boot = dut.id(0x700);
+    for (command, state) in [
+        (Command::EnterPreOperational, PRE_OPERATIONAL),
+        (Command::Start, OPERATIONAL),
+    ] {
+        dut.nmt(command)?;
+        let missing = (0..=0xFF).filter(|code| Command::from_code(*code).is_none());
+        // A node in the wrong state shows it after sixteen commands, as none of them leads back.
+        for some in missing.collect::<Vec<u8>>().chunks(16) {
+            let sent = dut.frames.len();
+            for code in some {
+                dut.send(Frame::standard(0, &[*code, node]))?;
+                dut.settle(2_000)?;
+            }
+            dut.settle(20_000)?;
+            dut.is_in(state)?;
+            let mut heard = dut.frames.get(sent..).unwrap_or_default().iter();
+            if heard.any(|one| is_data(&one.frame, boot) && one.frame.data() == [0]) {
+                return fail(
+                    format!("no reset by one of the commands {some:02X?}"),
+                    "a boot-up message came",
+                );
+            }
+        }
     }
     Ok(())
 }

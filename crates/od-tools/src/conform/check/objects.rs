@@ -167,7 +167,13 @@ pub(super) fn limits_reached(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn sub_indices(dut: &mut Dut<'_>) -> Checked {
     let dictionary = dut.eds.dictionary();
     for object in dictionary.objects() {
-        if !object.code.has_members() || !(0x1000..0xA000).contains(&object.index) {
+        if !(0x1000..0xA000).contains(&object.index) {
+            continue;
+        }
+        if !object.code.has_members() {
+            let beyond = Address::new(object.index, 1);
+            let done = dut.refuses(request(0x40, beyond, [0; 4]), &[NoSubIndex]);
+            dut.fault(done)?;
             continue;
         }
         let members: Vec<Entry> = dictionary.members(&object).collect();

@@ -390,6 +390,43 @@ fn put(dut: &mut Dut<'_>, output: Address, value: i16) -> Checked {
     dut.wait(REACTION)
 }
 
+/// Each analogue output holds each value, and an input that is wired to it follows.
+pub(super) fn analogue_hold(dut: &mut Dut<'_>) -> Checked {
+    const VALUES: [i16; 4] = [0, STEP, 2 * STEP, 3 * STEP];
+    let wires = match Analogue::find(dut) {
+        Err(End::NotApplicable(_)) => Vec::new(),
+        found => found?,
+    };
+    for sub in 1..=dut.number(0x6411, 0)?.min(0xFE) as u8 {
+        let output = Address::new(0x6411, sub);
+        dut.keep(output)?;
+        let wire = wires.iter().find(|wire| wire.output == output);
+        let mut seen = Vec::new();
+        for value in VALUES {
+            put(dut, output, value)?;
+            let is = dut.read(output)?;
+            let done = ensure(
+                is == value.to_le_bytes(),
+                format!("{value} in {output}, as was written"),
+                format!("{is:02X?} was read"),
+            );
+            dut.fault(done)?;
+            if let Some(wire) = wire {
+                seen.push(wire.read(dut)?);
+            }
+        }
+        let is_monotonic =
+            seen.is_sorted_by(|one, next| one < next) || seen.is_sorted_by(|one, next| one > next);
+        let done = ensure(
+            is_monotonic,
+            format!("another value of the input of {output} for each of {VALUES:?}"),
+            format!("{seen:?} was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
 /// A small change and a great one.
 pub(super) fn delta(dut: &mut Dut<'_>) -> Checked {
     const SMALL: i16 = 100;
@@ -413,6 +450,43 @@ pub(super) fn delta(dut: &mut Dut<'_>) -> Checked {
         dut.set(Address::new(0x6423, 0), &[0])?;
         let sent = caused(dut, id, |dut| put(dut, wire.output, STEP))?;
         expect(sent, false, id, "with 0 in 6423h")
+    })
+}
+
+/// A fall and a rise by more than the delta of its direction.
+pub(super) fn delta_direction(dut: &mut Dut<'_>) -> Checked {
+    const DELTA: u32 = 1000;
+    let wires = Analogue::find(dut)?;
+    each(dut, wires, |dut, wire| {
+        let id = event_of(dut, 0x6401, wire.input)?;
+        if wire.after(dut, 0)? >= wire.after(dut, STEP)? {
+            return lacks("the input falls when the output rises");
+        }
+        let signed = [(0x6427, 3, -STEP), (0x6428, 4, STEP)];
+        for (index, reason, change) in signed.into_iter().filter(|one| dut.eds.has(one.0)) {
+            dut.set(Address::new(0x6426, wire.input), &1u32.to_le_bytes())?;
+            dut.set(Address::new(index, wire.input), &DELTA.to_le_bytes())?;
+            // The value of the last interrupt is that of two steps.
+            wire.select(dut, 1 << 2)?;
+            for value in [0, 2 * STEP] {
+                put(dut, wire.output, value)?;
+            }
+            dut.wait(QUIET)?;
+            wire.select(dut, 1 << reason)?;
+            for (value, wanted) in [
+                (2 * STEP + change / 40, false),
+                (2 * STEP - change, false),
+                (2 * STEP + change, true),
+            ] {
+                let sent = caused(dut, id, |dut| put(dut, wire.output, value))?;
+                let when = format!(
+                    "after 6401h:{:02X} became {value}, with {DELTA} in {index:04X}h",
+                    wire.input
+                );
+                expect(sent, wanted, id, &when)?;
+            }
+        }
+        Ok(())
     })
 }
 

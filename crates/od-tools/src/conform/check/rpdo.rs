@@ -137,7 +137,7 @@ pub(super) fn write(dut: &mut Dut<'_>) -> Checked {
 
 /// RPDOs refuse the reserved transmission types.
 pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
-    refuses_types(dut, 0x1400, &[241, 247, 253])
+    refuses_types(dut, 0x1400, 241..=253)
 }
 
 pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
@@ -215,11 +215,49 @@ pub(super) fn history_order(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Sends an RPDO without its last byte; returns it and its value before.
+/// A missing heartbeat, then an RPDO that is too short. With 1 in 1029h:01 the first error leaves the node in
+/// Operational, without which it does not receive the RPDO.
+pub(super) fn second_error(dut: &mut Dut<'_>) -> Checked {
+    let behaviour = Address::new(0x1029, 1);
+    let before = dut.number(0x1001, 0)?;
+    dut.keep(behaviour)?;
+    if dut.download(behaviour, &[1])?.is_err() {
+        return lacks("an error of communication leaves Operational");
+    }
+    let node = watch(dut, 100)?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    if emcy(dut, 0x8130, 1_000_000)?.is_none() {
+        return lacks("a missing heartbeat causes no EMCY 8130h");
+    }
+    let (pdo, _) = send_short(dut)?;
+    if emcy(dut, 0x8210, 200_000)?.is_none() {
+        return fail(
+            "EMCY 8210h for an RPDO that is too short while the error 8130h is present",
+            "none came",
+        );
+    }
+    // Both errors end.
+    let (good, _) = pdo.other(dut)?;
+    pdo.send(dut, &good)?;
+    beat(dut, node)?;
+    dut.write(Address::new(0x1016, 1), &[0; 4])?;
+    dut.wait(50_000)?;
+    let after = dut.number(0x1001, 0)?;
+    ensure(
+        after & !before & 0x10 == 0,
+        "0 in bit 4 of 1001h after both errors",
+        format!("{after:02X}h was read"),
+    )
+}
+
+/// Sends an RPDO, which ends an earlier error, and then one without its last byte; returns it and its value before.
 fn send_short(dut: &mut Dut<'_>) -> Checked<(Rpdo, Vec<u8>)> {
     sends_emcy(dut)?;
     let pdo = first(dut, 255)?;
     dut.nmt(Command::Start)?;
+    let (good, _) = pdo.other(dut)?;
+    pdo.send(dut, &good)?;
     let before = dut.read(pdo.value())?;
     let (bytes, _) = pdo.other(dut)?;
     dut.drain()?;
@@ -388,8 +426,8 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn mapping_missing_object(dut: &mut Dut<'_>) -> Checked {
-    let pdo = any_on(dut)?;
-    mapping::refuses_missing(dut, pdo)
+    any_on(dut)?;
+    mapping::each(dut, 0x1400, mapping::refuses_missing)
 }
 
 pub(super) fn mapping_without_procedure(dut: &mut Dut<'_>) -> Checked {
@@ -403,18 +441,22 @@ pub(super) fn mapping_while_on(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn mapping_too_many(dut: &mut Dut<'_>) -> Checked {
-    let pdo = any_on(dut)?;
-    mapping::refuses_too_many(dut, pdo)
+    any_on(dut)?;
+    mapping::each(dut, 0x1400, mapping::refuses_too_many)
 }
 
 pub(super) fn mapping_too_long(dut: &mut Dut<'_>) -> Checked {
-    let pdo = any_on(dut)?;
-    mapping::refuses_too_long(dut, pdo, Entry::maps_to_rpdo)
+    any_on(dut)?;
+    mapping::each(dut, 0x1400, |dut, pdo| {
+        mapping::refuses_too_long(dut, pdo, Entry::maps_to_rpdo)
+    })
 }
 
 pub(super) fn mapping_wrong_length(dut: &mut Dut<'_>) -> Checked {
-    let pdo = any_on(dut)?;
-    mapping::refuses_wrong_length(dut, pdo, Entry::maps_to_rpdo)
+    any_on(dut)?;
+    mapping::each(dut, 0x1400, |dut, pdo| {
+        mapping::refuses_wrong_length(dut, pdo, Entry::maps_to_rpdo)
+    })
 }
 
 /// Objects of 8, 16 or 32 bits that an RPDO may map and that can be read, in order; without the permission, only those
@@ -508,6 +550,25 @@ fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
     done
 }
 
+/// A frame that is too short writes nothing, and one that is too long writes its first bytes.
+fn lengths(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
+    let number = pdo.com - 0x13FF;
+    let mut changed = Changed::of(dut, entries)?;
+    let last = changed.bytes.pop();
+    changed.send(dut, pdo)?;
+    let why = format!(", as RPDO{number} was too short");
+    changed.holds(dut, false, &why)?;
+    changed.bytes.extend(last.into_iter().chain([0]));
+    if changed.bytes.len() > 8 {
+        return dut.nmt(Command::EnterPreOperational);
+    }
+    changed.send(dut, pdo)?;
+    let why = format!(", from the first bytes of RPDO{number}, which was too long");
+    let done = changed.holds(dut, true, &why);
+    dut.nmt(Command::EnterPreOperational)?;
+    done
+}
+
 /// A synchronous RPDO of these objects waits for SYNC, and one that is not valid writes nothing.
 fn waits(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
     let changed = Changed::of(dut, entries)?;
@@ -594,6 +655,7 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
         let entries = with_another(dut, pdo.map(), &all, entry);
         let done = on(dut, pdo, |dut, map| {
             takes(dut, &pdo, map, &entries)?;
+            lengths(dut, &pdo, &entries)?;
             waits(dut, &pdo, &entries)
         });
         match done {

@@ -1,12 +1,13 @@
 //! Store and restore: 1010h and 1011h.
 
-use od_model::{Address, Entry, Group, values};
+use od_model::{Address, Entry, Group, Literal, values};
 use od_wire::AbortCode::{LocalControl, NotStored};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
 use super::transmit::{Tpdo, first};
 use crate::conform::dut::{Dut, is_data};
+use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 
 /// Time after the response to a save, since a node may still be writing, in microseconds.
@@ -52,14 +53,38 @@ pub(super) fn command(dut: &mut Dut<'_>, index: u16, sub: u8, signature: &[u8]) 
 }
 
 pub(super) fn wrong_signature(dut: &mut Dut<'_>, index: u16) -> Checked {
+    // A node that takes one of the others for a restore would lose its values.
+    let wrong: &[&[u8]] = match index {
+        0x1010 => &[b"evas", b"SAVE", b"load"],
+        _ => &[b"evas"],
+    };
+    refuses_signatures(dut, index, wrong)
+}
+
+fn refuses_signatures(dut: &mut Dut<'_>, index: u16, wrong: &[&[u8]]) -> Checked {
     let count = dut.number(index, 0)?.min(127) as u8;
     for sub in 1..=count {
-        let address = Address::new(index, sub);
-        if dut.eds.entry(index, sub).is_some() {
-            dut.refuses_value(address, b"evas", &[NotStored, LocalControl])?;
+        if dut.eds.entry(index, sub).is_none() {
+            continue;
+        }
+        for signature in wrong {
+            let address = Address::new(index, sub);
+            let done = dut.refuses_value(address, signature, &[NotStored, LocalControl]);
+            dut.fault(done)?;
         }
     }
     Ok(())
+}
+
+/// Signatures that are nearly right restore nothing.
+pub(super) fn wrong_signatures(dut: &mut Dut<'_>) -> Checked {
+    let before = backup(dut)?;
+    refuses_signatures(dut, 0x1011, &[b"save", b"LOAD", b"daol"])?;
+    if dut.faults.is_empty() {
+        return Ok(());
+    }
+    dut.reset(Command::ResetNode)?;
+    bring_back(dut, &before)
 }
 
 /// 1010h declares whether it saves on command or automatically.
@@ -99,15 +124,39 @@ pub(super) fn save_communication(dut: &mut Dut<'_>) -> Checked {
     saves_no_communication(dut)
 }
 
-/// A parameter of the application with limits that only sub-indices 1 and 3 of 1010h save, its value, and another one.
-fn another_application(dut: &mut Dut<'_>) -> Checked<Option<Change>> {
+/// A group of values that a sub-index of 1010h and 1011h of its own saves and restores.
+#[derive(Clone, Copy)]
+pub(super) enum Apart {
+    Application = 3,
+    Manufacturer = 4,
+}
+
+fn has_limits(entry: &Entry) -> bool {
+    entry.low != Literal::None && entry.high != Literal::None
+}
+
+/// A value that only sub-index 1 and that of its group save: before and now.
+fn another_apart(dut: &mut Dut<'_>, group: Apart) -> Checked<Option<Change>> {
     for entry in dut.eds.writable() {
-        let is_own = (0x2000..0xA000).contains(&entry.address.index)
-            && entry.group.covered_by(3)
-            && !entry.group.covered_by(2)
+        let is_own = entry.address.index >= 0x2000
+            && entry.group.covered_by(group as u8)
             && !dut.eds.moves(entry.address);
-        if is_own
-            && let Some((other, before)) = super::nmt::another_of(dut, &entry)?
+        if !is_own {
+            continue;
+        }
+        let changed = match group {
+            Apart::Application if has_limits(&entry) => super::nmt::another_of(dut, &entry)?,
+            // Nobody else knows what an object of a manufacturer does, so its value changes by 1 only.
+            _ if is_number(&entry) => {
+                let before = dut.read(entry.address)?;
+                let mut other = before.clone();
+                other.iter_mut().take(1).for_each(|byte| *byte ^= 1);
+                let is_allowed = dut.eds.excludes(entry.address, &other, dut.node).is_none();
+                is_allowed.then_some((other, before))
+            }
+            _ => None,
+        };
+        if let Some((other, before)) = changed
             && dut.download(entry.address, &other)?.is_ok()
         {
             return Ok(Some((entry.address, before, other)));
@@ -116,13 +165,14 @@ fn another_application(dut: &mut Dut<'_>) -> Checked<Option<Change>> {
     Ok(None)
 }
 
-/// 1010h:02 saves no parameter of the application, and 1010h:03 saves it.
-pub(super) fn save_application(dut: &mut Dut<'_>) -> Checked {
-    if dut.eds.entry(0x1010, 2).is_none() || !saves_on_command(dut, 3)? {
-        return lacks("the node does not save the application separately on command");
+/// The sub-index of this group saves its values, and that of communication does not.
+pub(super) fn save_apart(dut: &mut Dut<'_>, group: Apart) -> Checked {
+    let own = group as u8;
+    if dut.eds.entry(0x1010, 2).is_none() || !saves_on_command(dut, own)? {
+        return lacks(format!("1010h:{own:02X} does not save on command"));
     }
-    let Some((address, before, other)) = another_application(dut)? else {
-        return lacks("no parameter of the application can be changed");
+    let Some((address, before, other)) = another_apart(dut, group)? else {
+        return lacks(format!("no value of 1010h:{own:02X} can be changed"));
     };
     let done = (|| {
         command(dut, 0x1010, 2, b"save")?;
@@ -130,22 +180,24 @@ pub(super) fn save_application(dut: &mut Dut<'_>) -> Checked {
         dut.reset(Command::ResetNode)?;
         is_there(dut, address, &before, "1010h:02 does not save it")?;
         dut.write(address, &other)?;
-        command(dut, 0x1010, 3, b"save")?;
+        command(dut, 0x1010, own, b"save")?;
         dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;
-        is_there(dut, address, &other, "1010h:03 saves it")
+        let why = format!("1010h:{own:02X} saves it");
+        is_there(dut, address, &other, &why)
     })();
     saved_again(dut, done, address, &before)
 }
 
-/// 1011h:02 restores no parameter of the application, and 1011h:03 restores it.
-pub(super) fn load_application(dut: &mut Dut<'_>) -> Checked {
-    if !saves_on_command(dut, 1)? || dut.number(0x1011, 3)? & 1 == 0 {
-        return lacks("the node does not restore the application separately");
+/// The sub-index of this group restores its values, and that of communication does not.
+pub(super) fn load_apart(dut: &mut Dut<'_>, group: Apart) -> Checked {
+    let own = group as u8;
+    if !saves_on_command(dut, 1)? || dut.number(0x1011, own)? & 1 == 0 {
+        return lacks(format!("1011h:{own:02X} does not restore"));
     }
     let all = backup(dut)?;
-    let Some((address, before, other)) = another_application(dut)? else {
-        return lacks("no parameter of the application can be changed");
+    let Some((address, before, other)) = another_apart(dut, group)? else {
+        return lacks(format!("no value of 1011h:{own:02X} can be changed"));
     };
     let default = dut.eds.entry(address.index, address.sub);
     let default = default.and_then(|entry| dut.eds.default(&entry, dut.node));
@@ -154,10 +206,11 @@ pub(super) fn load_application(dut: &mut Dut<'_>) -> Checked {
         command(dut, 0x1011, 2, b"load")?;
         dut.reset(Command::ResetNode)?;
         is_there(dut, address, &other, "1011h:02 does not restore it")?;
-        command(dut, 0x1011, 3, b"load")?;
+        command(dut, 0x1011, own, b"load")?;
         dut.reset(Command::ResetNode)?;
+        let why = format!("1011h:{own:02X} restores it");
         match &default {
-            Some(default) => is_there(dut, address, default, "1011h:03 restores it"),
+            Some(default) => is_there(dut, address, default, &why),
             None => Ok(()),
         }
     })();

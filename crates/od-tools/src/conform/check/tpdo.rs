@@ -1,5 +1,7 @@
 //! TPDOs: when they are sent, their content, and their communication parameters.
 
+use std::ops::RangeInclusive;
+
 use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{ValueRange, ValueTooHigh};
 use od_wire::nmt::Command;
@@ -404,8 +406,65 @@ fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
         format!("{len} bytes in {name} as mapped"),
         format!("{} came", heard.frame),
     )?;
+    if is_synchronous {
+        is_sent_with_third(dut, pdo)?;
+        forbids_rtr(dut, pdo)?;
+    }
     is_silent_while_off(dut, pdo)?;
     keeps_times(dut, pdo)
+}
+
+/// With transmission type 3, two of six SYNC messages send this TPDO.
+fn is_sent_with_third(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    if dut.download(pdo.address(2), &[3])?.is_err() {
+        return Ok(());
+    }
+    starts_silent(dut, pdo)?;
+    let from = dut.frames.len();
+    for _ in 0..6 {
+        sync(dut)?;
+        dut.wait(20_000)?;
+    }
+    let sent = dut.frames.get(from..).unwrap_or_default().iter();
+    let sent = sent.filter(|one| !one.ours && pdo.carries(&one.frame));
+    let count = sent.count();
+    dut.nmt(Command::EnterPreOperational)?;
+    ensure(
+        count == 2,
+        format!(
+            "TPDO{} with two of six SYNC messages, by transmission type 3",
+            pdo.com - 0x17FF
+        ),
+        format!("{count} came"),
+    )
+}
+
+/// With bit 30 of its COB-ID this synchronous TPDO does not answer a remote frame.
+fn forbids_rtr(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let before = pdo.cob_id;
+    if !CobId::new(before).allows_rtr() || !dut.eds.writes(pdo.com, 1) {
+        return Ok(());
+    }
+    let other = before | 1 << 30;
+    let mut is_taken = true;
+    for value in [before | 1 << 31, other | 1 << 31, other] {
+        let done = dut.download(pdo.address(1), &value.to_le_bytes())?;
+        is_taken = is_taken && done.is_ok();
+    }
+    let done = if is_taken {
+        dut.nmt(Command::Start)?;
+        dut.ask_for(pdo.id(), 8)?;
+        let number = pdo.com - 0x17FF;
+        let expected = format!("no TPDO{number} after a remote frame with bit 30 of its COB-ID");
+        none(dut, pdo, QUIET, &expected)
+    } else {
+        Ok(())
+    };
+    dut.nmt(Command::EnterPreOperational)?;
+    for value in [before | 1 << 31, before] {
+        dut.write(pdo.address(1), &value.to_le_bytes())?;
+    }
+    done
 }
 
 /// The event timer and the inhibit time of this TPDO take effect.
@@ -618,11 +677,11 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
     first(dut)?;
-    refuses_types(dut, 0x1800, &[241, 245, 251])
+    refuses_types(dut, 0x1800, 241..=251)
 }
 
 /// Every PDO from the communication parameter `base` on refuses these transmission types.
-pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: &[u8]) -> Checked {
+pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: RangeInclusive<u8>) -> Checked {
     let mut any = false;
     for number in dut.eds.pdos(base) {
         let com = base + number;
@@ -632,8 +691,8 @@ pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: &[u8]) -> Check
         any = true;
         let address = Address::new(com, 2);
         dut.keep(address)?;
-        for kind in kinds {
-            let done = dut.refuses_value(address, &[*kind], &[ValueRange, ValueTooHigh]);
+        for kind in kinds.clone() {
+            let done = dut.refuses_value(address, &[kind], &[ValueRange, ValueTooHigh]);
             dut.fault(done)?;
         }
     }

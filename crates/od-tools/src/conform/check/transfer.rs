@@ -1,11 +1,13 @@
 //! Expedited transfers, and requests that a server refuses.
 
+use std::ops::RangeInclusive;
+
 use od_model::{Access, Address, Entry, Group, values};
 use od_wire::AbortCode::{
     InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
     ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
 };
-use od_wire::{CanId, CobId, Frame};
+use od_wire::{AbortCode, CanId, CobId, Frame};
 
 use super::segments;
 use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
@@ -125,6 +127,31 @@ pub(super) fn another_saved(
 
 /// Command 22h: the server takes the bytes that the object has.
 pub(super) fn download_no_size(dut: &mut Dut<'_>) -> Checked {
+    let sync = dut.eds.entry(0x1005, 0);
+    let sync = sync.filter(|entry| entry.access.writable());
+    let mut all: Vec<Entry> = dut.eds.writable().into_iter().chain(sync).collect();
+    all.sort_by_key(|entry| entry.address);
+    all.dedup_by_key(|entry| (entry.address.index, entry.data_type.size()));
+    // 1019h can be written only while 1006h is 0.
+    all.retain(|entry| is_number(entry) && entry.address.index != 0x1019);
+    for entry in all {
+        let own = dut.upload(entry.address)?.unwrap_or_default();
+        let is_allowed = dut.eds.excludes(entry.address, &own, dut.node).is_none();
+        if is_allowed && matches!(own.len(), 1..=4) {
+            let mut bytes = [0; 4];
+            bytes[..own.len()].copy_from_slice(&own);
+            let answer = dut.answer(request(0x22, entry.address, bytes))?;
+            let done = ensure(
+                answer[0] == 0x60,
+                format!(
+                    "60h, the confirmation of a download without a size to {}",
+                    entry.address
+                ),
+                format!("{} came", values::hex(&answer)),
+            );
+            dut.fault(done)?;
+        }
+    }
     let Some((address, value)) = another_value(dut)? else {
         return lacks("no parameter of communication can be written");
     };
@@ -163,15 +190,39 @@ pub(super) fn read_write_only(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// In each object that can be written, the sub-index after the last one, and 7Fh.
 pub(super) fn write_no_sub_index(dut: &mut Dut<'_>) -> Checked {
-    let index = if dut.eds.has(0x1017) { 0x1017 } else { 0x1000 };
-    let codes = [NoSubIndex, UnsupportedAccess, ReadOnly];
-    let codes = if index == 0x1017 {
-        &codes[..1]
-    } else {
-        &codes[..]
-    };
-    dut.refuses(request(0x2B, Address::new(index, 0x7F), [0; 4]), codes)
+    let mut ends: Vec<(u16, u8, usize)> = Vec::new();
+    for entry in dut.eds.writable() {
+        let Address { index, sub } = entry.address;
+        let size = entry.data_type.size().filter(|size| *size <= 4);
+        // The sub-index after a mapping or a communication parameter may be refused for its state.
+        if let Some(size) = size.filter(|_| !(0x1400..=0x1BFF).contains(&index)) {
+            match ends.iter_mut().find(|(known, ..)| *known == index) {
+                Some((_, last, _)) => *last = sub.max(*last),
+                None => ends.push((index, sub, size)),
+            }
+        }
+    }
+    if ends.is_empty() {
+        let codes = &[NoSubIndex, UnsupportedAccess, ReadOnly];
+        return dut.refuses(request(0x2B, Address::new(0x1000, 0x7F), [0; 4]), codes);
+    }
+    for (index, last, size) in ends {
+        let command = 0x23 | (4 - size as u8) << 2;
+        let all = [last.saturating_add(1), 0x7F];
+        let missing = all
+            .into_iter()
+            .filter(|sub| dut.eds.entry(index, *sub).is_none());
+        for sub in missing.collect::<Vec<u8>>() {
+            let done = dut.refuses(
+                request(command, Address::new(index, sub), [0; 4]),
+                &[NoSubIndex],
+            );
+            dut.fault(done)?;
+        }
+    }
+    Ok(())
 }
 
 pub(super) fn read_no_object(dut: &mut Dut<'_>) -> Checked {
@@ -201,17 +252,42 @@ pub(super) fn unknown_command(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
-    let Some(entry) = shorter_than_four(dut, 1) else {
-        return lacks("no object of one or two bytes can be written");
-    };
-    let before = dut.keep(entry.address)?;
-    let mut bytes = [0; 4];
-    bytes[..before.len().min(4)].copy_from_slice(&before[..before.len().min(4)]);
+    refuses_lengths(dut, TooLong)
+}
+
+/// Each number refuses the other lengths of an expedited download that have this abort code.
+fn refuses_lengths(dut: &mut Dut<'_>, code: AbortCode) -> Checked {
+    let is_long = code == TooLong;
+    for entry in numbers(dut, if is_long { 1..=3 } else { 2..=4 })? {
+        let before = dut.keep(entry.address)?;
+        let lens = if is_long {
+            before.len() + 1..5
+        } else {
+            1..before.len()
+        };
+        for len in lens {
+            let mut bytes = before.clone();
+            bytes.resize(len, 0);
+            let done = refuses_length(dut, &entry, &before, bytes, code);
+            dut.fault(done)?;
+        }
+    }
+    Ok(())
+}
+
+/// A value of another length is refused, and changes nothing.
+fn refuses_length(
+    dut: &mut Dut<'_>,
+    entry: &Entry,
+    before: &[u8],
+    mut bytes: Vec<u8>,
+    code: AbortCode,
+) -> Checked {
     // Another value, so that the abort shows whether it was written.
-    bytes[0] ^= 1;
-    dut.refuses_value(entry.address, &bytes, &[Length, TooLong])?;
-    unchanged(dut, entry.address, &before)?;
-    dut.write(entry.address, &before)
+    bytes.iter_mut().take(1).for_each(|byte| *byte ^= 1);
+    dut.refuses_value(entry.address, &bytes, &[Length, code])?;
+    unchanged(dut, entry.address, before)?;
+    dut.write(entry.address, before)
 }
 
 /// A refused value does not change the object.
@@ -225,25 +301,30 @@ fn unchanged(dut: &mut Dut<'_>, address: Address, before: &[u8]) -> Checked {
 }
 
 pub(super) fn too_short(dut: &mut Dut<'_>) -> Checked {
-    let Some(entry) = shorter_than_four(dut, 2) else {
-        return lacks("no object of two bytes can be written");
-    };
-    let before = dut.keep(entry.address)?;
-    let bytes = [before.first().copied().unwrap_or(0) ^ 1];
-    dut.refuses_value(entry.address, &bytes, &[Length, TooShort])?;
-    unchanged(dut, entry.address, &before)?;
-    dut.write(entry.address, &before)
+    refuses_lengths(dut, TooShort)
 }
 
-fn shorter_than_four(dut: &Dut<'_>, least: usize) -> Option<Entry> {
+/// Writable numbers of these sizes: the first of each object, and the inhibit time of EMCY messages.
+fn numbers(dut: &Dut<'_>, sizes: RangeInclusive<usize>) -> Checked<Vec<Entry>> {
     let fits = |entry: &Entry| {
-        is_number(entry)
-            && entry
-                .data_type
-                .size()
-                .is_some_and(|size| (least..4).contains(&size))
+        let size = entry.data_type.size();
+        is_number(entry) && size.is_some_and(|size| sizes.contains(&size))
     };
-    dut.eds.writable().into_iter().find(fits)
+    let inhibit = dut.eds.entry(0x1015, 0);
+    let inhibit = inhibit.filter(|entry| entry.access.writable());
+    let all = dut.eds.writable().into_iter().chain(inhibit);
+    let mut all: Vec<Entry> = all.filter(fits).collect();
+    // 1019h can be written only while 1006h is 0.
+    all.retain(|entry| entry.address.index != 0x1019);
+    all.sort_by_key(|entry| entry.address);
+    all.dedup_by_key(|entry| (entry.address.index, entry.data_type.size()));
+    if all.is_empty() {
+        let (least, most) = sizes.into_inner();
+        return lacks(format!(
+            "no number of {least} to {most} bytes can be written"
+        ));
+    }
+    Ok(all)
 }
 
 pub(super) fn above_high(dut: &mut Dut<'_>) -> Checked {
