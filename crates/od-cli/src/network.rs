@@ -111,6 +111,7 @@ fn one(
         position = Some(network.nodes.len());
         let mut own = Node::new("master".into(), master.node_id, description);
         own.writes = writes;
+        (own.place, own.places) = std::mem::take(&mut network.master_places);
         network.nodes.push(own);
     }
     if let Some(folder) = folder {

@@ -12,6 +12,8 @@
 //! | `{fix}` | " (safe fix)" or " (unsafe fix)", if the finding has one |
 //! | `{{`, `}}` | a brace |
 
+mod xml;
+
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -84,6 +86,23 @@ pub struct Eds;
 
 impl Vocabulary for Eds {}
 
+/// The terms of an XDD: `lowLimit="5"`.
+struct Xdd;
+
+impl Vocabulary for Xdd {
+    fn key(&self, key: Key) -> &'static str {
+        xml::key(key)
+    }
+
+    fn set(&self, key: Key, value: &str) -> String {
+        xml::set(key, value)
+    }
+
+    fn section(&self, index: u16, sub: Option<u8>) -> String {
+        xml::section(index, sub)
+    }
+}
+
 /// A second place, in words.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -128,7 +147,17 @@ impl Sentence {
 
 /// Returns the finding in these terms.
 pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
-    let filled = |english| Blanks { finding, words }.fill(words.sentence(english), false);
+    let filled = |english| {
+        if finding.is_xml {
+            let english = xml::sentence(english);
+            return Blanks {
+                finding,
+                words: &Xdd,
+            }
+            .fill(&english, false);
+        }
+        Blanks { finding, words }.fill(words.sentence(english), false)
+    };
     let labels = finding.related.iter().map(|related| Label {
         span: related.span,
         text: filled(related.says),
@@ -185,6 +214,13 @@ impl Blanks<'_> {
         let (name, form) = blank.split_once(':').unwrap_or((blank, ""));
         let facts = &self.finding.facts;
         match facts.iter().find(|(known, _)| *known == name) {
+            Some((_, Fact::Text(text)))
+                if self.finding.is_xml
+                    && self.finding.object.is_none()
+                    && matches!(name, "name" | "field" | "section") =>
+            {
+                Visible(&cut(xml::word(text))).line().into_owned()
+            }
             Some((_, fact)) if written => {
                 let own = self.words.written(fact);
                 own.unwrap_or_else(|| self.shown(fact, form))

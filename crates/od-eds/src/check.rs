@@ -1,13 +1,14 @@
 //! Checks: passes each object and value to the rules.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
-use crate::description::Description;
+use crate::description::{Description, EntryDescription, ObjectDescription};
 use crate::finding::{Check, Finding, sort};
 use crate::log::Log;
 use crate::read::modules::modules;
-use crate::subject::objects;
+use crate::span::Span;
+use crate::subject::{Object, objects};
 
 pub use crate::allow::{Allows, parse_allow};
 pub use crate::codes::{all, rule};
@@ -53,6 +54,7 @@ pub(crate) fn run(description: &Description, log: &mut Log) {
         report(&mut found);
     }
     // The objects that a device has while a module is plugged in.
+    let mut whole = None;
     for module in modules(description) {
         let own = Description {
             objects: module.fixed,
@@ -64,11 +66,68 @@ pub(crate) fn run(description: &Description, log: &mut Log) {
                 .for_each(|check| check(&entry, &mut found));
         }
         report(&mut found);
+        for (index, extension) in &module.extensions {
+            let base = description.objects.get(index).or(own.objects.get(index));
+            let Some(base) = base else {
+                continue;
+            };
+            let whole = whole.get_or_insert_with(|| description.clone());
+            let before = whole
+                .objects
+                .insert(*index, extended(base, &extension.entry));
+            if let Some(object) = Object::of(whole, *index) {
+                for entry in object.entries() {
+                    let checks = of_entries.iter();
+                    checks.for_each(|check| check(&entry, &mut found));
+                }
+                let checks = of_objects.iter();
+                checks.for_each(|check| check(&object, &mut found));
+            }
+            match before {
+                Some(before) => drop(whole.objects.insert(*index, before)),
+                None => drop(whole.objects.remove(index)),
+            }
+            let is_own = |span| is_in(&extension.entry, span);
+            found.retain(|finding| finding.span().is_some_and(is_own));
+            report(&mut found);
+        }
     }
     for check in of_device {
         check(description, &mut found);
         report(&mut found);
     }
+}
+
+/// An object with its first two values and one that a module adds. A module may add a value to an object with many, so
+/// the others are left out.
+fn extended(base: &ObjectDescription, added: &EntryDescription) -> ObjectDescription {
+    let first = base.entries.iter().take(2);
+    let mut entries: BTreeMap<u8, EntryDescription> =
+        first.map(|(sub, entry)| (*sub, entry.clone())).collect();
+    let last = entries.keys().next_back().copied();
+    entries.insert(last.unwrap_or(0).saturating_add(1), added.clone());
+    ObjectDescription {
+        code: base.code,
+        name: base.name.clone(),
+        sub_number: None,
+        entries,
+        flags: base.flags,
+        extra: Vec::new(),
+        span: base.span,
+    }
+}
+
+/// Returns whether a place is in the section of a value.
+fn is_in(entry: &EntryDescription, span: Span) -> bool {
+    let values = [&entry.default, &entry.low, &entry.high]
+        .into_iter()
+        .flatten();
+    let places = [entry.span, entry.access.span, entry.mappable.span];
+    let mut places = places
+        .into_iter()
+        .chain(entry.data_type.map(|data_type| data_type.span))
+        .chain(values.map(|value| value.span));
+    places.any(|own| own == span)
 }
 
 /// Keeps only the first of equal findings about sub-objects that one section describes (CompactSubObj).

@@ -215,6 +215,7 @@ impl Rule {
             facts: Vec::new(),
             related: Vec::new(),
             fix: None,
+            is_xml: false,
         }
     }
 
@@ -288,6 +289,8 @@ pub struct Finding {
     pub related: Vec<Related>,
     /// Automatic fix, if there is one.
     pub fix: Option<Fix>,
+    /// Whether the file is an XDD, whose terms are in its sentences.
+    pub is_xml: bool,
 }
 
 impl Finding {

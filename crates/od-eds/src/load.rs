@@ -1,5 +1,7 @@
 //! Reading and checking.
 
+#[cfg(feature = "xdd")]
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use crate::allow::Allows;
@@ -12,7 +14,11 @@ use crate::log::{KEPT, Log};
 use crate::read::{modules, sorted};
 #[cfg(feature = "xdd")]
 use crate::rules::lists::W0216;
+#[cfg(feature = "xdd")]
+use crate::rules::text::E0115;
 use crate::rules::text::{i0111_not_ascii, w0112_encoding, w0122_control_character};
+#[cfg(feature = "xdd")]
+use crate::rules::values::{E0401, reader::W0404};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
 use crate::scan::section::TextSection;
@@ -101,7 +107,19 @@ fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Pars
         parsed
             .findings
             .retain(|finding| finding.code() != W0216.code);
+        // A missing parameter has no type and no access.
+        let parameters = parsed.findings.iter();
+        let parameters = parameters.filter(|finding| finding.code() == E0115.code);
+        let parameters = parameters.filter_map(Finding::span);
+        let parameters: BTreeSet<u32> = parameters.map(|span| span.start).collect();
+        let follows = |finding: &Finding| {
+            let is_of_value = [E0401.code, W0404.code].contains(&finding.code());
+            let tag = finding.span().filter(|_| is_of_value);
+            tag.is_some_and(|tag| parameters.range(tag.start..tag.end).next().is_some())
+        };
+        parsed.findings.retain(|finding| !follows(finding));
         for finding in &mut parsed.findings {
+            finding.is_xml = true;
             let fix = finding.fix.take();
             finding.fix = fix.and_then(|fix| xdd::fixes::in_xml(fix, text));
         }

@@ -47,6 +47,8 @@ pub struct Overlaid {
     lines: Vec<(Origin, u32, u32)>,
     /// Byte where each line of `text` begins.
     starts: Vec<u32>,
+    /// The objects that the overlay removes, with the headers in the overlay.
+    removed: BTreeMap<u16, Span>,
 }
 
 impl Overlaid {
@@ -68,10 +70,19 @@ impl Overlaid {
     }
 
     /// Converts a finding of the text into one of its file. Second places in the other
-    /// file are left out, and so is a fix that would have to change both files.
+    /// file are left out, and so is a fix that would have to change both files. A finding about an object that is
+    /// missing since the overlay removes it is at the header there.
     pub fn place(&self, mut finding: Finding) -> (Origin, Finding) {
         let Place::Text(span) = finding.place else {
-            return (Origin::Base, finding);
+            let removed = finding
+                .object
+                .and_then(|object| self.removed.get(&object.index));
+            let Some(header) = removed else {
+                return (Origin::Base, finding);
+            };
+            finding.place = Place::Text(*header);
+            finding.fix = None;
+            return (Origin::Overlay, finding);
         };
         let (origin, span) = self.locate(span);
         finding.place = Place::Text(span);
@@ -120,6 +131,7 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
     let mut sections = Sections::default();
     parts.into_iter().for_each(|part| sections.push(part));
     let mut faults = Vec::new();
+    let mut removed = BTreeMap::new();
     let mut seen = Seen::default();
     let mut added = read(overlay, Origin::Overlay).into_iter();
     // The reader reports what is before the first section, as it does in any file.
@@ -145,6 +157,9 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
             continue;
         }
         if removes {
+            if let Some(index) = object_of(&section.name) {
+                removed.insert(index, section.header());
+            }
             if !sections.remove(&section.name) {
                 let fault = format!("section [{}] to remove is missing", section.name);
                 faults.push((section.line(), fault));
@@ -164,7 +179,10 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
     if before != after {
         list(&mut sections, &after);
     }
-    Ok(join(&sections))
+    Ok(Overlaid {
+        removed,
+        ..join(&sections)
+    })
 }
 
 /// A line and its origin.
@@ -263,6 +281,17 @@ impl<'t> Sections<'t> {
 impl<'t> Part<'t> {
     fn is(&self, name: &str) -> bool {
         !self.name.is_empty() && self.name.eq_ignore_ascii_case(name)
+    }
+
+    /// The place of the header.
+    fn header(&self) -> Span {
+        let first = self.lines.first();
+        first.map_or(Span::default(), |line| Span {
+            start: line.byte,
+            end: line.byte + line.text.trim_end().len() as u32,
+            line: line.number,
+            column: 1,
+        })
     }
 
     /// Line number of the header.

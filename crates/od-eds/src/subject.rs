@@ -46,6 +46,13 @@ impl Entry<'_> {
         self.extra.iter().any(|(name, _)| key.is(name))
     }
 
+    /// The place that makes it exist: its section, or the number in CompactSubObj.
+    pub(crate) fn origin(&self) -> Span {
+        let is_copy = self.address.sub > 0 && self.entry.span == self.object.span;
+        let count = self.object.entries.get(&0).filter(|_| is_copy);
+        count.map_or(self.entry.span, |count| count.span)
+    }
+
     /// Its address in a sentence.
     pub(crate) fn shown(&self) -> Fact {
         shown(self.object, self.address)

@@ -62,6 +62,49 @@ pub(crate) fn at(elements: &[Element], offset: usize) -> Option<(&Element, Optio
     }
 }
 
+/// The labels and descriptions of the parameter that an element refers to, each with its language, and the label of its unit.
+pub(crate) fn texts(text: &str, element: &Element) -> Vec<(String, String)> {
+    let id = attribute(text, &element.tag, "uniqueIDRef").and_then(|id| text.get(id));
+    let Some(start) = id.and_then(|id| with_id(text, id)) else {
+        return Vec::new();
+    };
+    let behind = text.get(start.end..).unwrap_or_default();
+    let is_empty = text[start.clone()].ends_with("/>");
+    let end = behind.find("parameter>").filter(|_| !is_empty).unwrap_or(0);
+    let mut found = Vec::new();
+    for (at, _) in behind[..end].match_indices('<').take(MOST) {
+        let own = &behind[at..end];
+        let name = own[1..]
+            .split(|c: char| c.is_whitespace() || matches!(c, '>' | '/'))
+            .next();
+        let name = name.and_then(|name| name.rsplit(':').next());
+        if !matches!(name, Some("label" | "description")) {
+            continue;
+        }
+        let Some((tag, (content, _))) = own
+            .split_once('>')
+            .and_then(|(tag, rest)| Some((tag, rest.split_once('<')?)))
+        else {
+            continue;
+        };
+        let tag = start.end + at..start.end + at + tag.len();
+        let lang = attribute(text, &tag, "lang").and_then(|lang| text.get(lang));
+        let plain = content
+            .replace("&lt;", "<")
+            .replace("&gt;", ">")
+            .replace("&quot;", "\"");
+        let plain = plain.replace("&apos;", "'").replace("&amp;", "&");
+        let words: Vec<&str> = plain.split_whitespace().collect();
+        if !words.is_empty() {
+            found.push((lang.unwrap_or_default().into(), words.join(" ")));
+        }
+    }
+    found
+}
+
+/// Maximum number of elements of a parameter whose texts a hover shows.
+const MOST: usize = 50;
+
 /// The start tag at a byte.
 pub(crate) struct Tag<'a> {
     /// The name of the element, without a prefix.
@@ -154,7 +197,11 @@ pub(crate) fn parameter(text: &str, elements: &[Element], offset: usize) -> Opti
     if !(given.start..=given.end).contains(&offset) {
         return None;
     }
-    let id = text.get(given)?;
+    with_id(text, text.get(given)?)
+}
+
+/// The start tag of the element with this uniqueID.
+fn with_id(text: &str, id: &str) -> Option<Range<usize>> {
     text.match_indices(" uniqueID").find_map(|(at, _)| {
         let start = text[..at].rfind('<')?;
         let tag = start..start + text[start..].find('>')? + 1;

@@ -1,11 +1,11 @@
 //! A project of dcfgen (dcf-tools) in YAML, also in the form of ros2_canopen, whose nodes are below `nodes` and
 //! share `defaults`.
 
-use od_eds::Finding;
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
     configure, consume_heartbeats, misspelled_key, not_mappable,
 };
+use od_eds::{Finding, Span};
 use od_model::Address;
 
 use super::yaml::Yaml;
@@ -17,6 +17,8 @@ pub(super) struct Network {
     pub(super) name: String,
     /// The master of a project; in a node list the master is a node.
     pub(super) master: Option<Master>,
+    /// The places of the master and its settings.
+    pub(super) master_places: (Span, Vec<(Setting, Span)>),
     /// Bit rate in kbit/s, if the file of a node has one.
     pub(super) bit_rate: Option<u32>,
     pub(super) nodes: Vec<Node>,
@@ -29,6 +31,7 @@ impl From<NodeList> for Network {
         Self {
             name: list.name,
             master: None,
+            master_places: Default::default(),
             bit_rate: list.bit_rate,
             nodes: list.nodes,
             findings: list.findings,
@@ -127,6 +130,25 @@ impl<'a> Section<'a> {
         let place = self.place_of(unfit.setting);
         let line = place.map_or(self.line, |place| place.span.line);
         format!("line {line}: {}", unfit.why)
+    }
+
+    /// The places of the settings by which nodes can contradict each other.
+    fn places(&self) -> Vec<(Setting, Span)> {
+        const KEYS: [&str; 5] = [
+            "node_id",
+            "sync_period",
+            "time_cob_id",
+            "heartbeat_consumer",
+            "heartbeat_producer",
+        ];
+        let pdos = ["rpdo", "tpdo"].into_iter().flat_map(|key| {
+            let numbers = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
+            let numbers = numbers.filter_map(|(own, _)| u16::try_from(own.integer()?).ok());
+            numbers.map(move |number| Setting::Pdo(key, number))
+        });
+        let all = KEYS.into_iter().map(Setting::Key).chain(pdos);
+        all.filter_map(|setting| Some((setting, self.place_of(setting)?.span)))
+            .collect()
     }
 
     /// The findings about objects in the mappings of the PDOs that the device cannot map.
@@ -383,12 +405,13 @@ pub(super) fn read(
     let master = whole
         .get("master")
         .ok_or("the section `master` is missing; add it with its `node_id`")?;
-    let master = Section {
+    let own = Section {
         name: "master",
         line: master.span.line,
         yaml: master,
-    }
-    .master(&settings)?;
+    };
+    let master_places = (master.span, own.places());
+    let master = own.master(&settings)?;
     let mut nodes = Vec::new();
     let mut findings = Vec::new();
     for (key, yaml) in slaves(&whole) {
@@ -421,12 +444,14 @@ pub(super) fn read(
         let mut node = Node::new(name.clone(), id, description);
         let wanted = section.configuration()?;
         findings.extend(section.unmapped(&node, &wanted));
+        (node.place, node.places) = (key.span, section.places());
         configure(&mut node, &wanted, &mut settings).map_err(|unfit| section.unfit(unfit))?;
         nodes.push(node);
     }
     consume_heartbeats(&master, &mut nodes)?;
     Ok(Network {
         master: Some(master),
+        master_places,
         nodes,
         findings,
         ..Network::default()

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use od_eds::network::{self, BIT_RATES, Frame};
+use od_eds::network::{self, BIT_RATES, Frame, Trigger};
 
 use od_model::Visible;
 
@@ -57,7 +57,7 @@ pub(super) fn table(
         );
         let _ = writeln!(out, "{}", line.trim_end());
     }
-    let periodic = frames.iter().filter(|frame| frame.rate.is_some()).count();
+    let periodic = frames.iter().filter(|frame| frame.rate.is_ok()).count();
     let _ = writeln!(
         out,
         "\nBus load of {} with all stuff bits; SDO, EMCY and events come on top",
@@ -77,7 +77,11 @@ pub(super) fn table(
 
 fn period(frame: &Frame) -> String {
     match frame.rate {
-        Some(rate) if rate > 0.0 => format!("{} ms", (1e6 / rate).round() / 1e3),
-        _ => "on event".into(),
+        Ok(rate) => format!("{} ms", (1e6 / rate).round() / 1e3),
+        Err(Trigger::Event) => "on event".into(),
+        Err(Trigger::SyncAfterEvent) => "at SYNC after an event".into(),
+        Err(Trigger::Syncs(1)) => "at each SYNC".into(),
+        Err(Trigger::Syncs(count)) => format!("at each {count} SYNC messages"),
+        Err(Trigger::Request) => "on request".into(),
     }
 }

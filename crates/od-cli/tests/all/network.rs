@@ -161,18 +161,38 @@ fn contradictions_between_nodes_are_reported() {
     ];
     let (run, _) = network("odd", "odd.yml", &text.concat());
     assert_eq!(run.code, 1, "{}", run.err);
-    for said in [
-        "error[E1201]: a and b have node ID 5",
-        "error[E1202]: TPDO 1 of a and TPDO 1 of c have CAN-ID 185h",
-        "error[E1204]: e waits 100 ms for the heartbeat of d, which comes every 100 ms",
-        "warning[W1203]: heartbeat consumer 1016h:01 of f waits for the heartbeat of node 99",
-        "warning[W1208]: d: `hartbeat_producer` is not a key of dcfgen\n  --> ",
-        "warning[W1205]: periodic frames take up to ",
+    for (line, said) in [
+        (":8:", "error[E1201]: a and b have node ID 5"),
+        (
+            ":12:",
+            "error[E1202]: TPDO 1 of a and TPDO 1 of c have CAN-ID 185h",
+        ),
+        (
+            ":19:",
+            "error[E1204]: e waits 100 ms for the heartbeat of d, which comes every 100 ms",
+        ),
+        (
+            ":23:",
+            "warning[W1203]: heartbeat consumer 1016h:01 of f waits for the heartbeat of node 99",
+        ),
+        (
+            ":17:",
+            "warning[W1208]: d: `hartbeat_producer` is not a key of dcfgen",
+        ),
+        ("", "warning[W1205]: periodic frames take up to "),
     ] {
-        assert!(run.err.contains(said), "{said}\n{}", run.err);
+        let mut lines = run.err.lines().skip_while(|own| !own.starts_with(said));
+        let place = lines
+            .nth(1)
+            .unwrap_or_else(|| panic!("{said}\n{}", run.err));
+        assert!(
+            place.contains(&format!("odd.yml{line}")),
+            "{said}\n{}",
+            run.err
+        );
     }
     let fits = [
-        "master: {node_id: 1, heartbeat_producer: 1000}\n".into(),
+        "master: {node_id: 1, heartbeat_producer: 1000, sync_period: 10000}\n".into(),
         node("a", 5, "  heartbeat_consumer: true\n"),
         node("b", 6, "  heartbeat_producer: 100\n"),
     ];
@@ -184,6 +204,60 @@ fn contradictions_between_nodes_are_reported() {
         bytes,
         [1, 0, 0, 0, 0x16, 0x10, 1, 4, 0, 0, 0, 0xB8, 0x0B, 1, 0]
     );
+}
+
+/// A SYNC producer with the period 0 sends no SYNC (CiA 301, object 1006h).
+#[test]
+fn a_synchronous_pdo_needs_a_period_of_sync() {
+    let nodes = [
+        node("a", 5, "  tpdo: {2: {transmission: 4}}\n"),
+        node("b", 6, "  tpdo: {2: {transmission: 0}}\n"),
+        node("c", 7, "  tpdo: {2: {transmission: 255}}\n"),
+        node("d", 8, "  tpdo: {2: {transmission: 253}}\n"),
+    ];
+    let project = |period: &str| {
+        [
+            "master: {node_id: 1".into(),
+            period.into(),
+            "}\n".into(),
+            nodes.concat(),
+        ]
+        .concat()
+    };
+    for (name, period) in [("none", ""), ("zero", ", sync_period: 0")] {
+        let (run, _) = network(&format!("sync-{name}"), "sync.yml", &project(period));
+        assert_eq!(run.code, 0, "{}", run.err);
+        for (line, pdo) in [(5, "TPDO 2 of a"), (9, "TPDO 2 of b")] {
+            let said = format!(
+                "warning[W1203]: {pdo} is synchronous, but no node sends SYNC (CAN-ID 080h)\n"
+            );
+            let found = run
+                .err
+                .find(&said)
+                .unwrap_or_else(|| panic!("{said}{}", run.err));
+            let place = run.err[found..].lines().nth(1).unwrap_or_default();
+            assert!(place.contains(&format!("sync.yml:{line}:")), "{}", run.err);
+        }
+        assert_eq!(run.err.matches("[W1203]").count(), 2, "{}", run.err);
+        for (id, period) in [
+            (5, "at each 4 SYNC messages"),
+            (6, "at SYNC after an event"),
+            (7, "on event"),
+            (8, "on request"),
+        ] {
+            let id = format!("    {:03X}h  TPDO 2", 0x280 + id);
+            let mut lines = run.out.lines().filter(|line| line.starts_with(&id));
+            assert!(
+                lines.next().is_some_and(|line| line.ends_with(period)),
+                "{}",
+                run.out
+            );
+        }
+        assert!(!run.out.contains("  SYNC  "), "{}", run.out);
+    }
+    let (run, _) = network("sync-period", "sync.yml", &project(", sync_period: 10000"));
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert!(run.out.contains("  40 ms"), "{}", run.out);
 }
 
 #[test]
@@ -284,7 +358,8 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
         run.out
     );
     assert!(
-        run.err.contains("SYNC of node5 waits for CAN-ID 080h"),
+        run.err
+            .contains("TPDO 1 of node5 is synchronous, but no node sends SYNC (CAN-ID 080h)"),
         "{}",
         run.err
     );

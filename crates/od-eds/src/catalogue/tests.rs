@@ -218,6 +218,13 @@ fn faults_of_networks() -> Vec<Finding> {
         node("c", 2, receiver),
     ];
     let mut found = crate::network::check(&nodes, None, 10, 0);
+    let waiting = "[1005]\nDataType=7\nDefaultValue=0x80\n[1800]\nObjectType=9\n[1800sub1]\nDataType=7\nDefaultValue=0x182\n\
+        [1800sub2]\nDataType=5\nDefaultValue=1\n\
+        [1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\nDefaultValue=0x20000008\n";
+    let nodes = [node("m", 1, ""), node("a", 2, waiting)];
+    for master in [None, Some(0)] {
+        found.extend(crate::network::check(&nodes, master, 10, 0));
+    }
     let list = "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode2Name=x\nNode3DCFName=500\nNode3Name=x\n\
         Node3DCFNam=y\n[Topology]\n";
     let dcf = |rate: &str| {

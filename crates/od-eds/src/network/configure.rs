@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::node::Node;
+use super::node::{Node, Setting};
 use super::pdo;
 use super::pdo::PdoConfiguration;
 use od_model::Address;
@@ -61,19 +61,6 @@ pub struct Configuration {
     pub restore_configuration: u8,
     /// Further writes.
     pub sdo: Vec<(Address, i128)>,
-}
-
-/// A setting of a node, by its place in the project.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Setting {
-    /// A key of the node.
-    Key(&'static str),
-    /// A PDO below the key, by its number.
-    Pdo(&'static str, u16),
-    /// An object in the mapping of a PDO, counted from 0.
-    Mapped(&'static str, u16, usize),
-    /// One of the writes below `sdo`, counted from 0.
-    Sdo(usize),
 }
 
 /// A setting that the device of a node cannot have.

@@ -170,6 +170,7 @@ fn topology(
         if !node.writes.is_empty() {
             node.configuration_file = format!("{}.bin", node.name);
         }
+        node.place = file.span;
         list.nodes.push(node);
     }
     let count = section.get("Nodes").filter(|count| !count.is_empty());

@@ -20,12 +20,12 @@ mod write;
 
 pub use crate::rules::network::{misspelled_key, not_mappable};
 pub use concise::{Write, bytes};
-pub use configure::{Configuration, ProjectSettings, Setting, Unfit, configure};
+pub use configure::{Configuration, ProjectSettings, Unfit, configure};
 pub use dcf::dcf;
 pub use list::{NodeList, node_lists};
-pub use load::{BIT_RATES, Frame, frame_bits, frames, load};
+pub use load::{BIT_RATES, Frame, Trigger, frame_bits, frames, load};
 pub use master::{Master, consume_heartbeats, writes};
-pub use node::Node;
+pub use node::{Node, Setting};
 pub use pdo::PdoConfiguration;
 pub use report::check;
 pub use saved::saved;

@@ -6,8 +6,22 @@ use alloc::vec::Vec;
 
 use super::concise::Write;
 use crate::description::Description;
+use crate::span::Span;
 use crate::subject::start_value;
 use od_model::Address;
+
+/// A setting of a node, by its place in the project.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Setting {
+    /// A key of the node.
+    Key(&'static str),
+    /// A PDO below the key, by its number.
+    Pdo(&'static str, u16),
+    /// An object in the mapping of a PDO, counted from 0.
+    Mapped(&'static str, u16, usize),
+    /// One of the writes below `sdo`, counted from 0.
+    Sdo(usize),
+}
 
 /// A node with the writes that configure it.
 #[derive(Clone, Debug)]
@@ -37,6 +51,10 @@ pub struct Node {
     pub partners: BTreeMap<u16, [u32; 4]>,
     /// The program file of 1F58h, its version in 1F55h, and the sub-index of 1F8Ah.
     pub software: (String, u32, u8),
+    /// Its place in the project or the node list; that of an empty span is not known.
+    pub place: Span,
+    /// The places of its settings.
+    pub places: Vec<(Setting, Span)>,
 }
 
 impl Node {
@@ -55,6 +73,22 @@ impl Node {
             assignment: 0x0305,
             partners: BTreeMap::new(),
             software: (String::new(), 0, 0),
+            place: Span::default(),
+            places: Vec::new(),
+        }
+    }
+
+    /// The place of a setting; that of the node if the project does not have the setting.
+    pub(crate) fn place_of(&self, setting: Setting) -> Span {
+        let found = self.places.iter().find(|(own, _)| *own == setting);
+        found.map_or(self.place, |(_, span)| *span)
+    }
+
+    /// The time between two SYNC messages that it produces, in microseconds; 0 if it produces none.
+    pub(super) fn sync_period(&self) -> u32 {
+        match self.number(0x1005, 0) >> 30 & 1 {
+            0 => 0,
+            _ => self.number(0x1006, 0),
         }
     }
 

@@ -6,13 +6,14 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::load::{frames, load};
-use super::node::Node;
+use super::node::{Node, Setting};
 use crate::finding::Finding;
 use crate::identifiers::{Service, Used, mapping, used};
 use crate::rules::network::{
     e1201_same_node_id, e1202_same_can_id, e1204_consumer_time_too_short, w1203_no_producer,
-    w1205_bus_load, w1206_pdo_too_short,
+    w1203_no_sync, w1205_bus_load, w1206_pdo_too_short,
 };
+use crate::span::Span;
 
 /// Bus load in percent above which frames of low priority come late.
 const HIGH: f64 = 80.0;
@@ -27,14 +28,15 @@ pub fn check(
     sync_period: u32,
 ) -> Vec<Finding> {
     let mut found = Vec::new();
-    let mut ids: BTreeMap<u8, &str> = BTreeMap::new();
+    let mut ids: BTreeMap<u8, &Node> = BTreeMap::new();
     for node in nodes {
         match ids.get(&node.id) {
-            Some(first) => found.push(e1201_same_node_id(first, &node.name, node.id)),
-            None => drop(ids.insert(node.id, &node.name)),
+            Some(first) => found.push(e1201_same_node_id(first, node)),
+            None => drop(ids.insert(node.id, node)),
         }
     }
-    let all: Vec<Vec<Used>> = nodes.iter().map(valid).collect();
+    let has_sync = sync_period > 0 || nodes.iter().any(|node| node.sync_period() > 0);
+    let all: Vec<Vec<Used>> = nodes.iter().map(|node| valid(node, has_sync)).collect();
     let mut sent = BTreeMap::new();
     let order = (0..nodes.len())
         .filter(|at| Some(*at) != master)
@@ -45,10 +47,8 @@ pub fn check(
             let key = (used.is_extended, used.id);
             match sent.get(&key) {
                 Some(&(other, own)) if !is_partner && nodes[at].id != nodes[other as usize].id => {
-                    let (first, second) = (
-                        place(&nodes[other as usize], own),
-                        place(&nodes[at], used.service),
-                    );
+                    let first = &nodes[other as usize];
+                    let (first, second) = (named(first, own), named(&nodes[at], used.service));
                     found.push(e1202_same_can_id(&first, &second, used.id));
                 }
                 Some(_) => {}
@@ -66,11 +66,13 @@ pub fn check(
                 }
                 (Service::Rpdo(_) | Service::Time, None) => {
                     let what = format!("CAN-ID {:03X}h", used.id);
-                    found.push(w1203_no_producer(&place(node, used.service), &what));
+                    found.push(w1203_no_producer(&named(node, used.service), &what));
                 }
-                (Service::Sync, None) if is_synchronous(node, own) => {
-                    let what = format!("CAN-ID {:03X}h", used.id);
-                    found.push(w1203_no_producer(&place(node, used.service), &what));
+                (Service::Sync, None) => {
+                    if let Some(pdo) = synchronous(node, own) {
+                        let own = master.map(|at| nodes[at].place_of(SYNC_PERIOD));
+                        found.push(w1203_no_sync(&named(node, pdo), used.id, own));
+                    }
                 }
                 _ => {}
             }
@@ -84,11 +86,15 @@ pub fn check(
     found
 }
 
-fn valid(node: &Node) -> Vec<Used> {
+/// The setting of a project for the period of the master's SYNC.
+const SYNC_PERIOD: Setting = Setting::Key("sync_period");
+
+fn valid(node: &Node, has_sync: bool) -> Vec<Used> {
     let used = used(&node.description, node.id).into_iter();
     let valid = used.filter(|used| used.is_valid && used.id != 0);
     valid
         .filter(|used| match used.service {
+            Service::Sync => !used.sends || has_sync,
             // A PDO without a mapping is never sent.
             Service::Tpdo(number) => bits(node, 0x19FF + number) > 0,
             Service::Rpdo(number) => bits(node, 0x15FF + number) > 0,
@@ -105,20 +111,28 @@ fn bits(node: &Node, index: u16) -> u32 {
     })
 }
 
-/// A node and its service, in words.
-fn place(node: &Node, service: Service) -> String {
-    format!("{service} of {}", node.name)
+/// A node and its service in words, with the place where the network sets the service.
+fn named(node: &Node, service: Service) -> (String, Span) {
+    let setting = match service {
+        Service::Tpdo(number) => Setting::Pdo("tpdo", number),
+        Service::Rpdo(number) => Setting::Pdo("rpdo", number),
+        Service::Time => Setting::Key("time_cob_id"),
+        _ => Setting::Key("node_id"),
+    };
+    let name = format!("{service} of {}", node.name);
+    (name, node.place_of(setting))
 }
 
-/// Returns whether a valid PDO of the node waits for SYNC.
-fn is_synchronous(node: &Node, used: &[Used]) -> bool {
-    used.iter().any(|used| match used.service {
+/// The first valid PDO of the node that waits for SYNC.
+fn synchronous(node: &Node, used: &[Used]) -> Option<Service> {
+    let waits = |used: &&Used| match used.service {
         Service::Tpdo(_) | Service::Rpdo(_) => {
             node.has_entry(used.address.index, 2)
                 && matches!(node.number(used.address.index, 2), 0..=240 | 252)
         }
         _ => false,
-    })
+    };
+    used.iter().find(waits).map(|used| used.service)
 }
 
 fn length(node: &Node, service: Service, from: &Node, number: u16) -> Option<Finding> {
@@ -130,7 +144,7 @@ fn length(node: &Node, service: Service, from: &Node, number: u16) -> Option<Fin
         bits(from, 0x19FF + number).div_ceil(8),
     );
     (mapped > sent).then(|| {
-        let (to, from) = (place(node, service), place(from, Service::Tpdo(number)));
+        let (to, from) = (named(node, service), named(from, Service::Tpdo(number)));
         w1206_pdo_too_short(&to, mapped, &from, sent)
     })
 }
@@ -147,18 +161,14 @@ fn heartbeats(node: &Node, nodes: &[Node], found: &mut Vec<Finding>) {
         match producer.map(|producer| (producer, producer.number(0x1017, 0))) {
             Some((producer, own)) if own > 0 => {
                 if time <= own {
-                    found.push(e1204_consumer_time_too_short(
-                        &node.name,
-                        time,
-                        &producer.name,
-                        own,
-                    ));
+                    found.push(e1204_consumer_time_too_short(node, time, producer, own));
                 }
             }
             _ => {
                 let what = format!("the heartbeat of node {id}");
                 let consumer = format!("heartbeat consumer 1016h:{sub:02X} of {}", node.name);
-                found.push(w1203_no_producer(&consumer, &what));
+                let place = node.place_of(Setting::Key("heartbeat_consumer"));
+                found.push(w1203_no_producer(&(consumer, place), &what));
             }
         }
     }

@@ -1,7 +1,9 @@
 //! 12: nodes of a network that do not fit together: rules that `network::check` and the readers of networks report.
 
+use alloc::string::String;
+
 use crate::finding::{Finding, Form, Rule, Severity::Error};
-use crate::network::node::Node;
+use crate::network::node::{Node, Setting};
 use crate::scan::forms::near;
 use crate::scan::section::Text;
 use crate::span::Span;
@@ -30,10 +32,16 @@ pub(crate) static E1201: Rule = Rule {
     ..Rule::of("E1201")
 };
 
-pub(crate) fn e1201_same_node_id(first: &str, second: &str, id: u8) -> Finding {
-    let finding = E1201.finding().fact("first", first);
-    finding.fact("second", second).fact("id", i128::from(id))
+pub(crate) fn e1201_same_node_id(first: &Node, second: &Node) -> Finding {
+    let place = |node: &Node| node.place_of(Setting::Key("node_id"));
+    let finding = E1201.at(place(second)).related(place(first), FIRST);
+    let finding = finding.fact("first", first.name.as_str());
+    let finding = finding.fact("second", second.name.as_str());
+    finding.fact("id", second.id)
 }
+
+/// Label of the first of two nodes or services.
+const FIRST: &str = "{first}";
 
 pub(crate) static E1202: Rule = Rule {
     title: "two nodes send one CAN-ID",
@@ -45,10 +53,15 @@ pub(crate) static E1202: Rule = Rule {
     ..Rule::of("E1202")
 };
 
-pub(crate) fn e1202_same_can_id(first: &str, second: &str, id: u32) -> Finding {
-    let finding = E1202.finding().fact("first", first);
-    finding.fact("second", second).fact("id", i128::from(id))
+pub(crate) fn e1202_same_can_id(first: &Named, second: &Named, id: u32) -> Finding {
+    let finding = E1202.at(second.1).related(first.1, FIRST);
+    let finding = finding.fact("first", first.0.as_str());
+    let finding = finding.fact("second", second.0.as_str());
+    finding.fact("id", i128::from(id))
 }
+
+/// A service of a node in words, and its place in the project or the node list.
+type Named = (String, Span);
 
 pub(crate) static W1203: Rule = Rule {
     title: "consumer without a producer",
@@ -57,12 +70,36 @@ pub(crate) static W1203: Rule = Rule {
     example: "1016h:01 = 0x000503E8, without node 5",
     says: "{consumer} waits for {what}, which no node sends",
     help: "add the producer, or make the consumer not valid",
+    also: &[SYNC, SYNC_OF_MASTER],
     ..Rule::of("W1203")
 };
 
-pub(crate) fn w1203_no_producer(consumer: &str, what: &str) -> Finding {
-    let finding = W1203.finding().fact("consumer", consumer);
+/// Sentence for a synchronous PDO in a node list.
+const SYNC: Form = Form {
+    says: "{consumer} is synchronous, but no node sends SYNC (CAN-ID {id:03X}h)",
+    help: "set bit 30 of 1005h and a period in 1006h in one node, or write another transmission type",
+};
+
+/// Sentence for a synchronous PDO in a project.
+const SYNC_OF_MASTER: Form = Form {
+    help: "write `sync_period: 10000` (microseconds) in `master`, or another transmission type",
+    ..SYNC
+};
+
+pub(crate) fn w1203_no_producer(consumer: &Named, what: &str) -> Finding {
+    let finding = W1203.at(consumer.1).fact("consumer", consumer.0.as_str());
     finding.fact("what", what)
+}
+
+/// The finding about a synchronous PDO without SYNC; `master` is the place where a project sets the period, or that of
+/// its master.
+pub(crate) fn w1203_no_sync(consumer: &Named, id: u32, master: Option<Span>) -> Finding {
+    let finding = W1203.at(consumer.1).form(match master {
+        Some(_) => &SYNC_OF_MASTER,
+        None => &SYNC,
+    });
+    let finding = finding.fact("consumer", consumer.0.as_str()).fact("id", id);
+    finding.related(master.unwrap_or_default(), "the master sends no SYNC")
 }
 
 pub(crate) static E1204: Rule = Rule {
@@ -76,15 +113,17 @@ pub(crate) static E1204: Rule = Rule {
 };
 
 pub(crate) fn e1204_consumer_time_too_short(
-    consumer: &str,
+    consumer: &Node,
     time: u32,
-    producer: &str,
+    producer: &Node,
     period: u32,
 ) -> Finding {
-    let finding = E1204.finding().fact("consumer", consumer);
-    let finding = finding
-        .fact("time", i128::from(time))
-        .fact("producer", producer);
+    let place = consumer.place_of(Setting::Key("heartbeat_consumer"));
+    let produced = producer.place_of(Setting::Key("heartbeat_producer"));
+    let finding = E1204.at(place).related(produced, "the producer");
+    let finding = finding.fact("consumer", consumer.name.as_str());
+    let finding = finding.fact("time", i128::from(time));
+    let finding = finding.fact("producer", producer.name.as_str());
     finding.fact("period", i128::from(period))
 }
 
@@ -115,15 +154,14 @@ pub(crate) static W1206: Rule = Rule {
 };
 
 pub(crate) fn w1206_pdo_too_short(
-    consumer: &str,
+    consumer: &Named,
     mapped: u32,
-    producer: &str,
+    producer: &Named,
     sent: u32,
 ) -> Finding {
-    let finding = W1206
-        .finding()
-        .fact("consumer", consumer)
-        .fact("producer", producer);
+    let finding = W1206.at(consumer.1).related(producer.1, "the producer");
+    let finding = finding.fact("consumer", consumer.0.as_str());
+    let finding = finding.fact("producer", producer.0.as_str());
     let finding = finding.fact("mapped", i128::from(mapped));
     finding.fact("sent", i128::from(sent))
 }

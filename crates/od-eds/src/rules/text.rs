@@ -4,7 +4,10 @@ use alloc::format;
 use alloc::string::String;
 
 use crate::fact::Key;
-use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
+use crate::finding::{
+    Finding, Fixability, Form, Rule,
+    Severity::{Error, Warning},
+};
 use crate::fix::Fix;
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
@@ -443,13 +446,15 @@ pub(crate) fn w0122_control_character(at: Span, c: char) -> Finding {
 }
 
 pub(crate) static W0123: Rule = Rule {
-    title: "attribute of an XDD is not as in the schema",
-    why: "A tool that checks a file by the schema rejects the file. odkit ignores the value.",
-    source: "CiA 311, schema of the profiles",
-    fixability: Fixability::Unsafe,
+    severity: Error,
+    buildable: true,
+    title: "attribute or text of an XDD is not as in the schema",
+    why: "A tool that reads a file by the schema rejects the file. odkit ignores the value, except hexadecimal digits.",
+    source: "CiA 311, schema of the profiles; ISO 15745-1",
+    fixability: Fixability::Either,
     says: "`{given}` is not a valid {name}",
     help: "write {right}{fix}",
-    also: &[W0123_MISSING],
+    also: &[W0123_MISSING, W0123_ELEMENT],
     ..Rule::of("W0123")
 };
 
@@ -459,7 +464,7 @@ const W0123_MISSING: Form = Form {
     help: "add `{name}=\"…\"`",
 };
 
-/// The finding about an attribute that has another form than the one in words.
+/// The finding about an attribute, or the text of an element, that has another form than the one in words.
 #[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn w0123_attribute_not_valid(
     given: &Spanned<String>,
@@ -473,7 +478,19 @@ pub(crate) fn w0123_attribute_not_valid(
 #[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn w0123_attribute_missing(at: Span, element: &str, name: &str) -> Finding {
     let finding = W0123.at(at).form(&W0123_MISSING).fact("name", name);
-    finding.fact("element", element)
+    finding.fact("element", element).severity_of(Warning)
+}
+
+/// Sentence for an element that the schema does not have.
+const W0123_ELEMENT: Form = Form {
+    says: "{element} is not an element of the schema",
+    help: "write an element of the schema, or remove it",
+};
+
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn w0123_element_unknown(at: Span, element: &str) -> Finding {
+    let finding = W0123.at(at).form(&W0123_ELEMENT).fact("element", element);
+    finding.severity_of(Warning)
 }
 
 pub(crate) static E0124: Rule = Rule {

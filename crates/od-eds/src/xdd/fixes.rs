@@ -55,7 +55,8 @@ fn value(edit: &Edit, text: &str) -> Option<String> {
     let decimal = || number(given).map(|number| format!("{number}"));
     match &name[start..] {
         "dataType" => hexadecimal(4),
-        "objFlags" => hexadecimal(1),
+        "index" => hexadecimal(4),
+        "subIndex" | "objFlags" => hexadecimal(2),
         "objectType" | "subNumber" | "nodeID" | "granularity" | "nrOfRxPDO" | "nrOfTxPDO" => {
             decimal()
         }

@@ -8,13 +8,16 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
+use crate::finding::Severity;
 use crate::fix::Fix;
 use crate::rules::structure::reader::{w0318_attribute_misspelled, w0318_element_misspelled};
 use crate::rules::text::{
     e0124_id_missing, e0124_id_twice, w0123_attribute_missing, w0123_attribute_not_valid,
+    w0123_element_unknown,
 };
 use crate::scan::forms::near;
-use crate::xdd::source::Reader;
+use crate::xdd::objects::ACCESSES;
+use crate::xdd::source::{Reader, children};
 
 /// An attribute of an element.
 pub struct Attribute {
@@ -33,12 +36,16 @@ pub enum Value {
     Any,
     /// One of these words.
     Words(&'static [&'static str]),
+    /// The same; another rule reports a word in other capitals.
+    Capitals(&'static [&'static str]),
     /// `true` or `false`.
     Flag,
     /// A number from 0 to this one.
     Number(u32),
     /// Hexadecimal digits without `0x`, two for each byte.
     Hex,
+    /// The same with this number of digits; another rule reports what is not hexadecimal.
+    Digits(usize),
     /// Year, month and day: `2026-11-27`.
     Date,
     /// Hour, minute and second: `09:30:00`.
@@ -49,7 +56,7 @@ pub enum Value {
     Profile,
 }
 
-use Value::{Any, Date, Flag, Hex, Number, Profile, Reference, Time, Words};
+use Value::{Any, Capitals, Date, Digits, Flag, Hex, Number, Profile, Reference, Time, Words};
 
 const fn own(name: &'static str, value: Value) -> Attribute {
     Attribute {
@@ -88,10 +95,10 @@ const BODY: &[Attribute] = &[
 
 /// The values of an object or a sub-object are checked where they are read.
 const OBJECT: &[Attribute] = &[
-    own("index", Any),
+    own("index", Digits(4)),
     own("name", Any),
     own("objectType", Any),
-    own("dataType", Any),
+    own("dataType", Digits(4)),
     own("accessType", Any),
     own("lowLimit", Any),
     own("highLimit", Any),
@@ -99,17 +106,17 @@ const OBJECT: &[Attribute] = &[
     own("actualValue", Any),
     own("denotation", Any),
     own("PDOmapping", Any),
-    own("objFlags", Any),
+    own("objFlags", Digits(2)),
     own("uniqueIDRef", Any),
     own("subNumber", Any),
     own("rangeSelector", Any),
 ];
 
 const SUB_OBJECT: &[Attribute] = &[
-    own("subIndex", Any),
+    own("subIndex", Digits(2)),
     own("name", Any),
     own("objectType", Any),
-    own("dataType", Any),
+    own("dataType", Digits(4)),
     own("accessType", Any),
     own("lowLimit", Any),
     own("highLimit", Any),
@@ -117,14 +124,14 @@ const SUB_OBJECT: &[Attribute] = &[
     own("actualValue", Any),
     own("denotation", Any),
     own("PDOmapping", Any),
-    own("objFlags", Any),
+    own("objFlags", Digits(2)),
     own("uniqueIDRef", Any),
     own("rangeSelector", Any),
 ];
 
 const PARAMETER: &[Attribute] = &[
     required("uniqueID", Any),
-    own("access", Any),
+    own("access", Capitals(ACCESSES)),
     own("accessList", Any),
     own("support", Words(&["mandatory", "optional", "conditional"])),
     own("persistent", Flag),
@@ -213,7 +220,7 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
     (
         "dynamicChannel",
         &[
-            required("dataType", Any),
+            required("dataType", Digits(4)),
             required(
                 "accessType",
                 Words(&["readOnly", "writeOnly", "readWriteOutput"]),
@@ -236,6 +243,22 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
     ("supportedBaudRate", &[required("value", Any)]),
     ("variableRef", &[]),
 ];
+
+/// The words of the text in an element, by its name: ProfileClassID of ISO 15745-1.
+const TEXTS: &[(&str, &[&str])] = &[(
+    "ProfileClassID",
+    &[
+        "AIP",
+        "Process",
+        "InformationExchange",
+        "Resource",
+        "Device",
+        "CommunicationNetwork",
+        "Equipment",
+        "Human",
+        "Material",
+    ],
+)];
 
 /// Names of further elements, whose attributes are not checked.
 const OTHERS: &[&str] = &[
@@ -271,6 +294,7 @@ const OTHERS: &[&str] = &[
     "ProfileDate",
     "ProfileHeader",
     "ProfileIdentification",
+    "ProfileLocation",
     "ProfileName",
     "ProfileRevision",
     "ProfileSource",
@@ -289,6 +313,7 @@ const OTHERS: &[&str] = &[
     "allowedValues",
     "allowedValuesTemplate",
     "array",
+    "baseType",
     "buildDate",
     "buildNumber",
     "capabilities",
@@ -319,6 +344,7 @@ const OTHERS: &[&str] = &[
     "enum",
     "enumValue",
     "file",
+    "fileList",
     "functionInstance",
     "functionInstanceList",
     "functionType",
@@ -339,6 +365,8 @@ const OTHERS: &[&str] = &[
     "moduleInterfaceList",
     "moduleManagement",
     "moduleType",
+    "moduleTypeList",
+    "orderCode",
     "orderNumber",
     "outputVars",
     "parameterGroupList",
@@ -351,10 +379,12 @@ const OTHERS: &[&str] = &[
     "productText",
     "property",
     "range",
+    "rangeList",
     "revisionNumber",
     "serialNumber",
     "specificationRevision",
     "standardComplianceList",
+    "step",
     "struct",
     "subrange",
     "substituteValue",
@@ -363,6 +393,7 @@ const OTHERS: &[&str] = &[
     "unitURI",
     "value",
     "varDeclaration",
+    "variableIDRef",
     "vendorID",
     "vendorName",
     "vendorText",
@@ -376,6 +407,14 @@ pub fn attributes(element: &str) -> &'static [Attribute] {
     let mut all = ELEMENTS.iter();
     let found = all.find(|(name, _)| *name == element);
     found.map_or(&[], |(_, attributes)| *attributes)
+}
+
+/// Returns whether the schema has an element of this name.
+fn is_of_schema(node: Option<Node<'_, '_>>) -> bool {
+    node.is_some_and(|node| {
+        let name = node.tag_name().name();
+        ELEMENTS.iter().any(|(known, _)| *known == name) || OTHERS.contains(&name)
+    })
 }
 
 /// Returns whether an element of the table has an attribute of this name.
@@ -407,16 +446,21 @@ pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
             }
         }
     }
+    let namespace = |node: Node<'_, '_>| node.tag_name().namespace().map(String::from);
+    let own_namespace = root.first_element_child().and_then(namespace);
     for node in root.descendants().filter(Node::is_element) {
         let name = node.tag_name().name();
-        let is_known = ELEMENTS.iter().any(|(known, _)| *known == name) || OTHERS.contains(&name);
-        if !is_known {
+        if !is_of_schema(Some(node)) {
             let known = ELEMENTS.iter().map(|(known, _)| *known);
             if let Some(meant) = near(name, known.chain(OTHERS.iter().copied())) {
                 let at = reader.tag_name(node);
                 reader.log.push(w0318_element_misspelled(at, name, meant));
+            } else if is_of_schema(node.parent_element()) && namespace(node) == own_namespace {
+                let at = reader.tag_name(node);
+                reader.log.push(w0123_element_unknown(at, name));
             }
         }
+        text(node, name, reader);
         let attributes = attributes(name);
         if attributes.is_empty() {
             continue;
@@ -445,12 +489,28 @@ pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
                 }
                 Some(given) if !fits(own.value, &given) => {
                     let finding = w0123_attribute_not_valid(&given, own.name, form(own.value));
+                    let finding = match own.value {
+                        Digits(_) => finding.severity_of(Severity::Warning),
+                        _ => finding,
+                    };
                     let words = match own.value {
-                        Words(words) => words,
+                        Words(words) | Capitals(words) => words,
                         _ => &[],
                     };
                     let meant = near(&given, words.iter().copied());
                     let meant = meant.map(|meant| Fix::unsafe_fix().replace(given.span, meant));
+                    let meant = meant.or_else(|| match own.value {
+                        // Every tool that accepts the digits reads the same number.
+                        Capitals(_) => {
+                            let word = parameter_word(&given)?;
+                            Some(Fix::unsafe_fix().replace(given.span, word))
+                        }
+                        Digits(_) => {
+                            let number = format!("0x{}", bare(&given));
+                            Some(Fix::safe().replace(given.span, number))
+                        }
+                        _ => None,
+                    });
                     reader
                         .log
                         .push(finding.fix(meant.unwrap_or(Fix::unsafe_fix())));
@@ -461,6 +521,56 @@ pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
     }
 }
 
+/// Reports the text of an element that is not one of its words, or is not the class of the profile beside it.
+fn text(node: Node<'_, '_>, name: &str, reader: &mut Reader<'_>) {
+    let Some((_, words)) = TEXTS.iter().find(|(known, _)| *known == name) else {
+        return;
+    };
+    let Some(given) = reader.text(node).filter(|given| !given.is_empty()) else {
+        return;
+    };
+    let profile = node.ancestors().nth(2);
+    let body = profile.and_then(|profile| children(profile, "ProfileBody").next());
+    let body = body.and_then(|body| reader.attribute(body, "type"));
+    let body = body.as_ref().map_or("", |body| body.as_str());
+    let class = match body {
+        _ if body.ends_with("ProfileBody_Device_CANopen") => "Device",
+        _ if body.ends_with("ProfileBody_CommunicationNetwork_CANopen") => "CommunicationNetwork",
+        _ => "",
+    };
+    let is_right = |word: &str| class.is_empty() || word == class;
+    let right: Vec<&str> = words
+        .iter()
+        .copied()
+        .filter(|word| is_right(word))
+        .collect();
+    if !right.contains(&given.as_str()) {
+        let finding = w0123_attribute_not_valid(&given, name, one_of(&right));
+        reader.log.push(if words.contains(&given.as_str()) {
+            finding.severity_of(Severity::Warning)
+        } else {
+            finding
+        });
+    }
+}
+
+/// The access of a parameter for the access of an object.
+fn parameter_word(text: &str) -> Option<&'static str> {
+    Some(match text.to_ascii_lowercase().as_str() {
+        "ro" => "read",
+        "wo" => "write",
+        "rw" => "readWrite",
+        "rwr" => "readWriteInput",
+        "rww" => "readWriteOutput",
+        _ => return None,
+    })
+}
+
+/// Hexadecimal digits without `0x`.
+fn bare(text: &str) -> &str {
+    text.strip_prefix("0x").unwrap_or(text)
+}
+
 /// Returns whether the schema allows this text.
 pub(super) fn fits(value: Value, text: &str) -> bool {
     let digits =
@@ -469,8 +579,14 @@ pub(super) fn fits(value: Value, text: &str) -> bool {
         Any | Reference => true,
         Profile => text.contains("CANopen"),
         Words(words) => words.contains(&text),
+        Capitals(words) => words.iter().any(|word| word.eq_ignore_ascii_case(text)),
         Flag => matches!(text, "true" | "false" | "0" | "1"),
         Number(most) => text.parse::<u32>().is_ok_and(|number| number <= most),
+        Digits(most) => {
+            let digits = bare(text);
+            let is_read = digits.len() <= most && digits.bytes().all(|b| b.is_ascii_hexdigit());
+            !is_read || digits.is_empty() || fits(Hex, text)
+        }
         Hex => {
             let is_hex = text.bytes().all(|byte| byte.is_ascii_hexdigit());
             !text.is_empty() && text.len().is_multiple_of(2) && is_hex
@@ -511,6 +627,16 @@ fn zone(text: &str, at: usize) -> bool {
     rest.is_empty() || rest == "Z" || rest.starts_with(['+', '-'])
 }
 
+/// One of these words, in a sentence.
+fn one_of(words: &[&str]) -> String {
+    let mut words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    let last = words.pop().unwrap_or_default();
+    match words.as_slice() {
+        [] => last,
+        before => format!("{} or {last}", before.join(", ")),
+    }
+}
+
 /// A value of this form in words, for a help.
 fn form(value: Value) -> String {
     match value {
@@ -518,13 +644,10 @@ fn form(value: Value) -> String {
         Profile => {
             "`ProfileBody_Device_CANopen` or `ProfileBody_CommunicationNetwork_CANopen`".into()
         }
-        Words(words) => {
-            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-            let (last, before) = words.split_at(words.len().saturating_sub(1));
-            format!("{} or {}", before.join(", "), last.concat())
-        }
+        Words(words) | Capitals(words) => one_of(words),
         Flag => "`true` or `false`".into(),
         Number(most) => format!("a number from 0 to {most}"),
+        Digits(digits) => format!("{digits} hexadecimal digits, without `0x`"),
         Hex => "hexadecimal digits, two for each byte, without `0x`".into(),
         Date => "year, month and day, such as `2026-11-27`".into(),
         Time => "hour, minute and second, such as `09:30:00`".into(),

@@ -174,13 +174,16 @@ fn each_problem_has_a_place() {
          </CANopenObjectList>",
     );
     let loaded = crate::load(&text);
-    for code in ["E0114", "E0115", "E0401", "E0405", "E0412"] {
+    for code in ["E0114", "E0115", "E0405", "E0412"] {
         let found = loaded.findings.iter().find(|d| d.code() == code);
         assert!(
             found.is_some_and(|d| d.span().is_some() && d.fix.is_none()),
             "{code}"
         );
     }
+    // The type and the access of the missing parameter are no faults of their own.
+    let follow = |code: &&str| matches!(*code, "E0401" | "W0404");
+    assert_eq!(codes(&loaded).iter().filter(|code| follow(code)).count(), 0);
     let broken = parse("<a>\n <b é></b>\n</a>");
     assert_eq!(codes(&broken), ["E0113"]);
     let span = broken.findings[0].span().expect("it has a place");
@@ -209,5 +212,96 @@ fn an_xdd_has_no_values_of_one_device_and_an_xdc_has_its_node_id() {
     ] {
         let text = file("", &content).replace("x.xpd", name);
         assert_eq!(self::codes(&parse(&text)), codes, "{name}: {content}");
+    }
+}
+
+/// The schema has `xsd:hexBinary`: two digits for each byte, and no `0x`.
+#[test]
+fn hexadecimal_digits_are_whole_bytes() {
+    let right = "<CANopenObjectList><CANopenObject index=\"2000\" name=\"a\" objectType=\"9\" subNumber=\"1\">\
+         <CANopenSubObject subIndex=\"00\" name=\"b\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" objFlags=\"00\" \
+         defaultValue=\"0\"/></CANopenObject></CANopenObjectList>";
+    assert!(!codes(&crate::load(&file("", right))).contains(&"W0123"));
+    for (wrong, fixed) in [
+        ("index=\"0x2000\"", "index=\"2000\""),
+        ("subIndex=\"0\"", "subIndex=\"00\""),
+        ("dataType=\"5\"", "dataType=\"0005\""),
+        ("dataType=\"0x0005\"", "dataType=\"0005\""),
+        ("dataType=\"005\"", "dataType=\"0005\""),
+        ("objFlags=\"0\"", "objFlags=\"00\""),
+    ] {
+        let text = file("", &right.replacen(fixed, wrong, 1));
+        let loaded = crate::load(&text);
+        let found: Vec<_> = loaded
+            .findings
+            .iter()
+            .filter(|own| own.code() == "W0123")
+            .collect();
+        assert_eq!(found.len(), 1, "{wrong}: {:?}", loaded.findings);
+        let find = |document: &crate::Document| document.load().findings;
+        let done = crate::fix::fix(
+            &crate::Document::new(text),
+            crate::fix::Applicability::Safe,
+            find,
+        );
+        assert!(
+            done.document.text().contains(fixed),
+            "{wrong}: {}",
+            done.document.text()
+        );
+    }
+    // Two digits are a whole byte.
+    let text = file(
+        "",
+        &right.replacen("dataType=\"0005\"", "dataType=\"05\"", 1),
+    );
+    assert!(!codes(&crate::load(&text)).contains(&"W0123"));
+}
+
+#[test]
+fn the_class_of_a_profile_is_that_of_its_body() {
+    let profile = |class: &str, body: &str| {
+        format!(
+            "<ISO15745ProfileContainer><ISO15745Profile><ProfileHeader><ProfileClassID>{class}</ProfileClassID>\
+             </ProfileHeader><ProfileBody xmlns:x=\"http://www.w3.org/2001/XMLSchema-instance\" x:type=\"{body}\"/>\
+             </ISO15745Profile></ISO15745ProfileContainer>"
+        )
+    };
+    let (device, network) = (
+        "ProfileBody_Device_CANopen",
+        "ProfileBody_CommunicationNetwork_CANopen",
+    );
+    for (class, body, is_right) in [
+        ("Device", device, true),
+        ("CommunicationNetwork", network, true),
+        ("Device", network, false),
+        ("CommunicationNetwork", device, false),
+        ("Resource", device, false),
+        ("Communication", "", false),
+        ("Resource", "", true),
+    ] {
+        let found = codes(&parse(&profile(class, body)));
+        assert_eq!(!found.contains(&"W0123"), is_right, "{class} {body}");
+    }
+}
+
+#[test]
+fn a_finding_has_the_terms_of_the_schema() {
+    let text = file(
+        "",
+        "<CANopenObjectList><CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" \
+         lowLimit=\"0\" highLimit=\"9\" actualValue=\"10\"/></CANopenObjectList>\
+         <deviceCommissioning nodeID=\"5\" actualBaudRate=\"7 Kbps\"/>",
+    );
+    let found = crate::load(&text.replace("x.xpd", "x.xdc")).findings;
+    let said: Vec<String> = found
+        .iter()
+        .map(|one| crate::say(one, &crate::Eds).message)
+        .collect();
+    for expected in ["actualValue", "actualBaudRate `7` is not valid"] {
+        assert!(said.iter().any(|own| own.contains(expected)), "{said:?}");
+    }
+    for eds in ["ParameterValue", "HighLimit", "Baudrate `"] {
+        assert!(!said.iter().any(|own| own.contains(eds)), "{eds}: {said:?}");
     }
 }

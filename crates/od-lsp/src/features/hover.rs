@@ -21,7 +21,7 @@ pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> Option<Hover> {
     let spot = seen.layout.spot(offset);
     let mut parts: Vec<String> = spot.map_or_else(Vec::new, |spot| said(file, seen, spot));
     let mut here = None;
-    if let Some((said, place)) = element(seen, offset) {
+    if let Some((said, place)) = element(file.str(), seen, offset) {
         parts.push(said);
         here = Some(place);
     }
@@ -83,7 +83,17 @@ pub(crate) fn object(seen: &Seen, at: Address, whole: bool) -> String {
     let description = &seen.description;
     let mut lines = vec![words::heading(description, at)];
     let Some(object) = description.objects.get(&at.index) else {
-        lines.push("The file does not define this object.".into());
+        let unread = seen
+            .problems
+            .first()
+            .filter(|_| description.objects.is_empty());
+        lines.push(match unread {
+            Some((_, why)) => format!(
+                "odkit does not know the objects of this overlay: {}.",
+                words::escaped(why)
+            ),
+            None => "The file does not define this object.".into(),
+        });
         return lines.join("\n\n");
     };
     if whole && object.code.has_members() {
@@ -199,7 +209,7 @@ fn access_of(access: Access) -> String {
 }
 
 /// Describes the XDD field at a byte and the object that it belongs to; also returns the place of the field.
-fn element(seen: &Seen, offset: usize) -> Option<(String, Range<usize>)> {
+fn element(text: &str, seen: &Seen, offset: usize) -> Option<(String, Range<usize>)> {
     let (element, field) = xdd::at(&seen.elements, offset)?;
     let place = field.map_or(&element.tag, |field| &field.value).clone();
     let (at, whole) = match element.place {
@@ -211,7 +221,15 @@ fn element(seen: &Seen, offset: usize) -> Option<(String, Range<usize>)> {
             return Some((format!("`{key}`: {said}"), place));
         }
     };
-    let about = object(seen, at, whole);
+    let mut about = object(seen, at, whole);
+    for (lang, said) in xdd::texts(text, element) {
+        let language = if lang.is_empty() {
+            lang
+        } else {
+            format!(" ({lang})")
+        };
+        about.push_str(&format!("\n\n{}{language}", words::escaped(&said)));
+    }
     let own = field.and_then(|field| field_of(&seen.description, at, &field.key));
     let said = own.map_or_else(|| about.clone(), |own| format!("{own}\n\n{about}"));
     Some((said, place))

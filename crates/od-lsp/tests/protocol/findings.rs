@@ -199,6 +199,16 @@ fn an_overlay_without_a_base_has_a_finding() {
             "{found:?}"
         );
     }
+    let text = ";odkit-base=nothing.eds\n[2001]\nDefaultValue=7\n";
+    client.change(uri, json!({ "text": text }));
+    let params = json!({ "textDocument": { "uri": uri }, "position": place(text, "[20|01]") });
+    let hover = client.request("textDocument/hover", params);
+    let hover = hover["contents"]["value"].as_str().unwrap_or_default();
+    assert!(
+        hover.contains("does not know the objects of this overlay"),
+        "{hover}"
+    );
+    assert!(!hover.contains("does not define"), "{hover}");
     client.change(uri, json!({ "text": "[2001]\nDefaultValue=7\n" }));
     assert_eq!(client.codes(uri), [""; 0]);
     // Two files that could be the base.

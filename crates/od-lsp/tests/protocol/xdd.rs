@@ -290,3 +290,31 @@ fn attributes_and_bit_rates_are_completed() {
     assert_eq!(rates.first().map(String::as_str), Some("10 Kbps"));
     assert_eq!(rates.len(), 8);
 }
+
+#[test]
+fn a_hover_shows_the_texts_of_a_parameter() {
+    let text = text().replacen(
+        "</ProfileBody>",
+        "<ApplicationProcess><parameterList><parameter uniqueID=\"P_1\" access=\"read\">\
+         <label lang=\"en\">Speed</label><label lang=\"de\">Drehzahl &amp; Richtung</label>\
+         <description lang=\"en\">Of the\n shaft</description><INT/></parameter>\
+         </parameterList></ApplicationProcess></ProfileBody>",
+        1,
+    );
+    let text = text.replacen(
+        "<CANopenObject index=\"6000\"",
+        "<CANopenObject index=\"6000\" uniqueIDRef=\"P_1\"",
+        1,
+    );
+    let mut client = client(&text);
+    let found = hover(&mut client, &text, "index=\"60|00\"");
+    for expected in [
+        "Speed (en)",
+        "Drehzahl \\& Richtung (de)",
+        "Of the shaft (en)",
+    ] {
+        assert!(found.contains(expected), "{expected}: {found}");
+    }
+    let other = hover(&mut client, &text, "index=\"10|00\"");
+    assert!(!other.contains("Speed"), "{other}");
+}

@@ -508,7 +508,7 @@ const W0252_XDD: Form = Form {
 /// probably means.
 #[cfg(feature = "xdd")]
 pub(crate) fn w0252_in_xdd(given: &Spanned<String>, meant: Option<u32>) -> Finding {
-    let finding = W0252.at(given.span).form(&W0252_XDD);
+    let finding = W0252.at(given.span).form(&W0252_XDD).severity_of(Error);
     let finding = finding.fact("name", given.as_str());
     match meant {
         Some(meant) => finding.fix(Fix::unsafe_fix().replace(given.span, format!("{meant} Kbps"))),

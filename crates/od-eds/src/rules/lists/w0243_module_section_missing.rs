@@ -13,7 +13,7 @@ pub(crate) static W0243: Rule = Rule {
     source: "CiA 306-1, SupportedModules",
     says: "section [{section}] of module {module} is missing",
     help: "add a section [{section}], or lower NrOfEntries",
-    also: &[CONNECTED],
+    also: &[CONNECTED, NUMBER],
     check: Check::Device(check),
     ..Rule::of("W0243")
 };
@@ -24,7 +24,22 @@ const CONNECTED: Form = Form {
     ..Form::OWN
 };
 
+/// Sentence for a number that no module has.
+const NUMBER: Form = Form {
+    says: "`{given}` is not the number of a module",
+    help: "write the number of a module, from 1",
+};
+
 fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let connected = description.section("ConnectedModules");
+    let slots = connected.iter().flat_map(|section| &section.pairs);
+    let slots = || slots.clone().filter(|(key, _)| number(key).is_some());
+    for (_, given) in slots() {
+        if !number(given).is_some_and(|module| (1..=0xFFFF).contains(&module)) {
+            let finding = W0243.given(given).form(&NUMBER);
+            findings.push(finding.severity_of(Severity::Error));
+        }
+    }
     let Some(modules) = description.section("SupportedModules") else {
         return;
     };
@@ -45,10 +60,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         }
     };
     (1..=count).for_each(|module| needs(module, modules.name.span, &Form::OWN));
-    let connected = description.section("ConnectedModules");
-    let slots = connected.iter().flat_map(|section| &section.pairs);
-    for (_, given) in slots.filter(|(key, _)| number(key).is_some()) {
-        if let Some(module) = number(given).filter(|module| !(1..=count).contains(module)) {
+    for (_, given) in slots() {
+        if let Some(module) = number(given).filter(|module| (count + 1..=0xFFFF).contains(module)) {
             needs(module, given.span, &CONNECTED);
         }
     }

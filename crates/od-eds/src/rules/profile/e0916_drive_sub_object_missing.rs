@@ -41,7 +41,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .entries()
         .find(|entry| (3..255).contains(&entry.address.sub))
     {
-        let finding = E0916.on(&entry, entry.span).form(&MORE);
+        let finding = E0916.on(&entry, entry.origin()).form(&MORE);
         let finding = finding.fact("object", Fact::Index(object.index));
         let finding = finding.fact("sub", entry.address.sub);
         findings.push(finding.severity_of(Warning));

@@ -136,7 +136,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             let own = own.map_or(0, |(sub, _)| *sub);
             // The channels of a module without one are those of its extension modules.
             if let Some(entry) = more.filter(|_| last > 0) {
-                let finding = named(W0912.on(&entry, entry.span), *channels).form(&MORE);
+                let finding = named(W0912.on(&entry, entry.origin()), *channels).form(&MORE);
                 let finding = finding.fact("sub", entry.address.sub);
                 // A parameter of a channel that does not exist is never set.
                 findings.push(finding.fact("last", last).severity_of(Severity::Info));

@@ -5,7 +5,7 @@ use alloc::string::String;
 
 use crate::finding::{
     Finding, Fixability, Form, Rule,
-    Severity::{Error, Info},
+    Severity::{Error, Info, Warning},
 };
 use crate::fix::Fix;
 use crate::scan::forms::Form as Wanted;
@@ -63,7 +63,10 @@ pub(crate) fn w0609_key_value_not_valid(
     };
     // A number or a flag of the device, which no tool can use. Dates and versions of the file are
     // only read by people; many files have a FileVersion such as `1.0`.
+    let is_number = matches!(wanted, Wanted::Flag | Wanted::Number(_));
     let is_read = section.eq_ignore_ascii_case("DeviceInfo")
+        || section.eq_ignore_ascii_case("DeviceComissioning") && is_number
+        || section.eq_ignore_ascii_case("DeviceCommissioning") && is_number
         || key.eq_ignore_ascii_case("NodeID")
         || wanted == Wanted::Flag;
     let is_of_file = ["FileVersion", "FileRevision"]
@@ -114,9 +117,30 @@ const I0610_TIME: Form = Form {
 
 pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
     let finding = I0610.given(given).fact("name", key);
+    let finding = match is_possible(given) {
+        true => finding,
+        false => finding.severity_of(Warning),
+    };
     match wanted {
         Wanted::Time => finding.form(&I0610_TIME),
         _ => finding,
+    }
+}
+
+/// Returns whether a time has fewer than 60 minutes, and a date a month and a day in either order.
+fn is_possible(text: &str) -> bool {
+    let number = |part: Option<&str>| part.and_then(|part| part.get(..2)?.parse::<u8>().ok());
+    let (mut time, mut date) = (text.split(':'), text.split('-'));
+    if time.next().is_some_and(|hour| hour.len() <= 2)
+        && let Some(minute) = number(time.next())
+    {
+        return minute < 60;
+    }
+    match (number(date.next()), number(date.next()), date.next()) {
+        (Some(one), Some(other), Some(year)) if year.len() == 4 => {
+            (1..=12).contains(&one.min(other)) && (1..=31).contains(&one.max(other))
+        }
+        _ => true,
     }
 }
 

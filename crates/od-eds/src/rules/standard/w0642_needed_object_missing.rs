@@ -12,7 +12,7 @@ pub(crate) static W0642: Rule = Rule {
     source: "CiA 301, objects 1000h to 1029h; CiA 302-2 and 302-3",
     says: "{object} needs object {other} ({name}), which is missing",
     help: "add {missing}, or remove {object}",
-    also: &[MASTER, DEVICES],
+    also: &[MASTER, FLYING, DEVICES],
     check: Check::Object(check),
     ..Rule::of("W0642")
 };
@@ -21,6 +21,12 @@ pub(crate) static W0642: Rule = Rule {
 const MASTER: Form = Form {
     says: "{object} makes the device an NMT master, but object {other} ({name}) is missing",
     help: "add {missing}, or clear bit 0 of {object}",
+};
+
+/// Sentence for a flying master without its times.
+const FLYING: Form = Form {
+    says: "{object} makes the device a flying NMT master, but object {other} ({name}) is missing",
+    help: "add {missing}, or clear bit 5 of {object}",
 };
 
 /// Sentence for a module of several logical devices.
@@ -61,9 +67,12 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let startup = (object.index == 0x1F80)
         .then(|| start_number(object.description, Address::new(0x1F80, 0)))
         .flatten();
-    if let Some(startup) = startup.filter(|startup| startup.value & 1 != 0) {
+    if let Some(startup) = startup.as_ref().filter(|startup| startup.value & 1 != 0) {
         // A master can know its slaves in another way.
         let found = report(0x1F81, startup.span, &MASTER);
         findings.extend(found.map(|found| found.severity_of(Severity::Info)));
+    }
+    if let Some(startup) = startup.filter(|startup| startup.value & 1 << 5 != 0) {
+        findings.extend(report(0x1F90, startup.span, &FLYING));
     }
 }

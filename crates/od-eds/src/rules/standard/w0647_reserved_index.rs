@@ -64,7 +64,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .filter(|entry| is_reserved(entry.address.sub))
     {
         let finding = W0647
-            .on(&entry, entry.span)
+            .on(&entry, entry.origin())
             .form(&SUB)
             .fact("object", shown.clone());
         let finding = finding.fact("name", standard.name);

@@ -13,7 +13,7 @@ pub(crate) static W0653: Rule = Rule {
     source: "CiA 306-1, DeviceComissioning",
     says: "[{section}] lacks `{field}`",
     help: "add `{field}=` and its value",
-    also: &[SERIAL, MANAGER],
+    also: &[SERIAL, NO_LSS, MANAGER],
     check: Check::Device(check),
     ..Rule::of("W0653")
 };
@@ -22,6 +22,12 @@ pub(crate) static W0653: Rule = Rule {
 const SERIAL: Form = Form {
     says: "LSS_SerialNumber is {given}, but 1018h:04 is {right}",
     help: "write `LSS_SerialNumber={right}`, or correct 1018h:04",
+};
+
+/// Sentence for a serial number of a device without LSS.
+const NO_LSS: Form = Form {
+    says: "LSS_SerialNumber is {given}, but LSS_Supported is 0",
+    help: "write `LSS_Supported=1` in [DeviceInfo], or remove LSS_SerialNumber",
 };
 
 /// Sentence for a manager that is not an NMT master.
@@ -54,6 +60,15 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let finding = W0653.at(given.span).about(address).form(&SERIAL);
         let finding = finding.fact("given", serial).fact("right", own.value);
         findings.push(finding.related(own.span, "serial number set here"));
+    }
+    let info = description.section("DeviceInfo");
+    let lss = info.and_then(|info| info.get("LSS_Supported"));
+    if let Some((given, lss)) = given.zip(lss)
+        && let Some(serial @ 1..) = number(given)
+        && number(lss) == Some(0)
+    {
+        let finding = W0653.at(given.span).form(&NO_LSS).fact("given", serial);
+        findings.push(finding.related(lss.span, "no LSS"));
     }
     if let Some(given) = section.get("CANopenManager")
         && number(given) == Some(1)

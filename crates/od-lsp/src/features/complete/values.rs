@@ -163,7 +163,7 @@ pub(super) fn of_schema(element: &str, name: &str) -> Vec<Choice> {
     }
     let mut attributes = od_eds::xdd::attributes(element).iter();
     match attributes.find(|own| own.name == name).map(|own| own.value) {
-        Some(od_eds::xdd::Value::Words(words)) => {
+        Some(od_eds::xdd::Value::Words(words) | od_eds::xdd::Value::Capitals(words)) => {
             words.iter().map(|word| Choice::new(*word, "")).collect()
         }
         Some(od_eds::xdd::Value::Flag) => {
