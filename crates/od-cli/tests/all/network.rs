@@ -242,7 +242,7 @@ fn a_synchronous_pdo_needs_a_period_of_sync() {
         for (id, period) in [
             (5, "at each 4 SYNC messages"),
             (6, "at SYNC after an event"),
-            (7, "on event"),
+            (7, "256 ms"),
             (8, "on request"),
         ] {
             let id = format!("    {:03X}h  TPDO 2", 0x280 + id);

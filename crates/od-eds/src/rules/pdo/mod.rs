@@ -38,7 +38,6 @@ catalogue! {
     w0539_limit_without_flag_bits W0539
     w0540_sdo_with_one_cob_id W0540
     e0541_mpdo_objects E0541
-    i0542_time_without_effect I0542
 }
 
 pub(crate) mod e0501_mapped_object_missing;
@@ -57,7 +56,6 @@ pub(crate) mod e0541_mpdo_objects;
 pub(crate) mod i0515_compact_pdo;
 pub(crate) mod i0528_mapped_twice;
 pub(crate) mod i0531_cob_id_without_node_id;
-pub(crate) mod i0542_time_without_effect;
 pub(crate) mod w0506_dummy_not_allowed;
 pub(crate) mod w0508_pdo_incomplete;
 pub(crate) mod w0511_transmission_type_reserved;

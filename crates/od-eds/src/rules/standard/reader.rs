@@ -117,9 +117,10 @@ const I0610_TIME: Form = Form {
 
 pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
     let finding = I0610.given(given).fact("name", key);
-    let finding = match is_possible(given) {
-        true => finding,
-        false => finding.severity_of(Warning),
+    let finding = if is_possible(given) {
+        finding
+    } else {
+        finding.severity_of(Warning)
     };
     match wanted {
         Wanted::Time => finding.form(&I0610_TIME),
