@@ -127,7 +127,7 @@ impl File {
             _ => LEN + capacity,
         };
         let has = header.len() + rest.len();
-        let is_fresh = erased || !opened.has_values(path, owner, seen, &header, &rest)?;
+        let is_fresh = erased || !opened.find_values(path, owner, seen, &header, &rest)?;
         if is_fresh {
             opened.capacity = capacity;
             if was_there && !erased && has < whole {
@@ -146,9 +146,9 @@ impl File {
         Ok(opened)
     }
 
-    /// Returns whether the file has saved values of this device. Sets the capacity to that in its
-    /// header.
-    fn has_values(
+    /// Returns whether the file has saved values of this device. Then its capacity is that of its
+    /// header, and a damaged header is noted as repaired.
+    fn find_values(
         &mut self,
         path: &Path,
         owner: &Owner<'_>,
