@@ -337,6 +337,19 @@ impl Dut<'_> {
         }
     }
 
+    /// Restores the values that a case has changed since `kept`, the number of values to be restored then.
+    pub(crate) fn put_back_since(&mut self, kept: usize) -> Checked {
+        while self.undo.len() > kept {
+            if let Some((address, bytes)) = self.undo.pop()
+                && let Err(code) = self.download(address, &bytes)?
+            {
+                self.notes
+                    .push(format!("could not put back {address}: abort {code:08X}h"));
+            }
+        }
+        Ok(())
+    }
+
     /// Switches the power on, enters Pre-operational, and restores all values. Returns notes about values that could
     /// not be restored, also if the link is lost.
     pub(crate) fn put_back(&mut self) -> Checked {

@@ -36,6 +36,51 @@ pub(super) fn velocity_window_time(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
+/// With a wide velocity window (606Dh) bit 10 becomes 1 on the ramp, and with a high threshold (606Fh) bit 12 stays 1.
+pub(super) fn velocity_windows(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        let writes = |dut: &Dut<'_>, index: u16| dut.eds.writes(index + axis.0, 0);
+        let mut is_tested = false;
+        if writes(dut, 0x606D) && writes(dut, 0x6083) {
+            is_tested = true;
+            if writes(dut, 0x606E) {
+                axis.choose(dut, 0x606E, 0)?;
+            }
+            axis.choose(dut, 0x606D, pace / 2)?;
+            // One second to the speed.
+            axis.choose(dut, 0x6083, pace)?;
+            axis.set(dut, 0x60FF, pace)?;
+            // Until now the axis was at its target, 0.
+            dut.wait(20_000)?;
+            axis.shows(dut, MOVE, REACHED)?;
+            let speed = axis.value(dut, 0x606C)?;
+            let done = ensure(
+                (speed - pace).abs() >= pace / 4,
+                format!(
+                    "bit 10 of {} at half of {pace}, as {} says",
+                    axis.at(0x6041),
+                    axis.at(0x606D)
+                ),
+                format!("{speed} in {} when it was 1", axis.at(0x606C)),
+            );
+            dut.fault(done)?;
+        }
+        if writes(dut, 0x606F) {
+            is_tested = true;
+            if writes(dut, 0x6070) {
+                axis.choose(dut, 0x6070, 0)?;
+            }
+            axis.choose(dut, 0x606F, pace)?;
+            axis.set(dut, 0x60FF, pace / 2)?;
+            dut.wait(1_500_000)?;
+            let what = format!("bit 12 = 1 at half of {pace}, the value of 606Fh,");
+            axis.shows(dut, 0, (&what, 1 << 12, 1 << 12))?;
+        }
+        at_least_one(is_tested, "the drive does not have 606Dh rw or 606Fh rw")
+    })
+}
+
 /// In cyclic synchronous position mode an axis takes the time of 60C2h from one target position to the next.
 pub(super) fn interpolation_time(dut: &mut Dut<'_>) -> Checked {
     each(dut, CYCLIC_POSITION, |dut, axis| {

@@ -3,6 +3,7 @@
 use od_model::Address;
 use od_wire::AbortCode::{DeviceState, General, ValueRange, ValueTooHigh, ValueTooLow};
 
+use super::states::MODES;
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure, lacks};
 
@@ -15,19 +16,6 @@ const CHANGE: u64 = 1_000_000;
 /// Mask and bits of the statusword in a state.
 const DISABLED: (u64, u64) = (0x4F, 0x40);
 const READY: (u64, u64) = (0x6F, 0x21);
-
-/// Modes with their bits in 6502h.
-const MODES: [(i8, u32); 9] = [
-    (1, 0),
-    (3, 2),
-    (6, 5),
-    (8, 7),
-    (9, 8),
-    (7, 6),
-    (2, 1),
-    (4, 3),
-    (10, 9),
-];
 
 pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
     for index in [0x6041, 0x6502] {
@@ -100,30 +88,6 @@ pub(super) fn order(dut: &mut Dut<'_>) -> Checked {
         "Switch on disabled after command 7, which Ready to switch on accepts only",
         format!("{is:04X}h was read from 6041h"),
     )
-}
-
-/// A mode of 6502h other than the present one.
-pub(super) fn mode(dut: &mut Dut<'_>) -> Checked {
-    disabled(dut)?;
-    let supported = dut.number(0x6502, 0)?;
-    let present = dut.number(0x6061, 0)? as u8 as i8;
-    let mut others = MODES.iter().filter(|(mode, _)| *mode != present);
-    let Some((mode, _)) = others.find(|(_, bit)| supported >> bit & 1 == 1) else {
-        return lacks("6502h has no other mode than the present one");
-    };
-    dut.set(MODE, &mode.to_le_bytes())?;
-    let end = dut.now().plus_micros(CHANGE);
-    loop {
-        let is = dut.number(0x6061, 0)? as u8 as i8;
-        if is == *mode || dut.now() >= end {
-            return ensure(
-                is == *mode,
-                format!("6061h = {mode} within 1 s, as was written to 6060h"),
-                format!("{is} was read"),
-            );
-        }
-        dut.wait(10_000)?;
-    }
 }
 
 /// A mode that is missing in 6502h.

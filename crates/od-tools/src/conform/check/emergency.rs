@@ -80,9 +80,20 @@ pub(super) fn history_clear(dut: &mut Dut<'_>) -> Checked {
             bytes.iter().all(|byte| *byte == 0),
             "no error in 1003h:01 after 0 was written to 1003h:00",
             format!("{} was read", values::hex(&bytes)),
-        ),
-        _ => Ok(()),
+        )?,
+        _ => {}
     }
+    if !has_entry {
+        return Ok(());
+    }
+    // The next error is the first entry again.
+    provoked(dut)?;
+    let newest = dut.number(0x1003, 1)?;
+    ensure(
+        newest & 0xFFFF == 0x8130,
+        "8130h in 1003h:01, the first error after 0 was written to 1003h:00",
+        format!("{newest:08X}h was read"),
+    )
 }
 
 /// 1015h is the shortest time between two EMCY messages.
@@ -221,6 +232,14 @@ pub(super) fn reset(dut: &mut Dut<'_>) -> Checked {
 
 /// After the error neither the message nor 1001h has a bit of it.
 pub(super) fn register_clears(dut: &mut Dut<'_>) -> Checked {
+    // The second error is like the first one.
+    for _ in 0..2 {
+        clears_once(dut)?;
+    }
+    Ok(())
+}
+
+fn clears_once(dut: &mut Dut<'_>) -> Checked {
     let before = dut.number(0x1001, 0)?;
     let (node, _) = provoked(dut)?;
     let id = dut.id(0x80);
@@ -383,6 +402,36 @@ pub(super) fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
     dut.write(address, &before)?;
     beat(dut, node)?;
     done
+}
+
+/// The end of life guarding is an error of communication, too: each value of 1029h:01.
+pub(super) fn behaviour_guarding(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1029, 1);
+    dut.keep(address)?;
+    if dut.eds.writes(0x1017, 0) {
+        dut.set(Address::new(0x1017, 0), &[0, 0])?;
+    }
+    dut.set(Address::new(0x100C, 0), &100u16.to_le_bytes())?;
+    dut.set(Address::new(0x100D, 0), &[2])?;
+    for (value, state) in [(1, 5), (0, 0x7F), (2, 4)] {
+        if dut.download(address, &[value])?.is_err() {
+            continue;
+        }
+        dut.nmt(Command::Start)?;
+        if dut.guarded()?.is_none() {
+            return lacks("the node does not respond to node guarding");
+        }
+        dut.wait(500_000)?;
+        let is = dut.guarded()?.unwrap_or(0) & 0x7F;
+        dut.nmt(Command::EnterPreOperational)?;
+        let done = ensure(
+            is == state,
+            format!("NMT state {state:02X}h after life guarding ended, as 1029h:01 is {value}"),
+            format!("{is:02X}h came"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 pub(super) fn behaviour_range(dut: &mut Dut<'_>) -> Checked {

@@ -83,48 +83,91 @@ pub(super) fn serial(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// The position takes the preset value at once; a reset restores the parameters.
+/// A preset object: itself, the position, and the offset.
+type Preset = (Address, Address, Option<Address>);
+
+/// 6003h, and each channel of 6010h.
+fn presets(dut: &Dut<'_>) -> Vec<Preset> {
+    let position = Address::new(0x6004, 0);
+    let has = |address: &Address| dut.eds.entry(address.index, address.sub).is_some();
+    let mut all = vec![(PRESET, position, Some(Address::new(0x6509, 0)).filter(has))];
+    for sub in (1..=0xFE).take_while(|sub| dut.eds.writes(0x6010, *sub)) {
+        let own = Some(Address::new(0x6020, sub)).filter(has);
+        if let Some(position) = own.or(Some(position).filter(|_| sub == 1)) {
+            let offset = Some(Address::new(0x650C, sub)).filter(has);
+            all.push((Address::new(0x6010, sub), position, offset));
+        }
+    }
+    all
+}
+
+/// The position takes each preset value at once, and a reset keeps neither more nor less.
 pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
-    let before = dut.number(0x6004, 0)?;
-    let old = dut.read(PRESET)?;
+    for preset in presets(dut) {
+        let done = takes_presets(dut, preset);
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
+fn takes_presets(dut: &mut Dut<'_>, (preset, position, offset): Preset) -> Checked {
+    let at = |dut: &mut Dut<'_>, address: Address| dut.number(address.index, address.sub);
+    let before = at(dut, position)?;
+    let old = dut.read(preset)?;
     let range = dut.number(0x6002, 0)?;
-    let value = if before > 200 || range <= 400 {
+    let near = if before > 200 || range <= 400 {
         100
     } else {
-        before as u32 + 100
+        before + 100
     };
-    let offset = dut.eds.has(0x6509).then_some(0x6509);
-    let offset_before = offset.map(|index| dut.number(index, 0)).transpose()?;
-    dut.write(PRESET, &value.to_le_bytes())?;
-    let is = dut.number(0x6004, 0)?;
-    let shown = dut.number(PRESET.index, 0)?;
-    let offset_after = offset.map(|index| dut.number(index, 0)).transpose()?;
-    let off = is.abs_diff(value.into());
-    let off = off.min(range.wrapping_sub(off));
-    // Restores the position in two steps: first the preset value that gives the earlier position,
-    // then the earlier preset value.
-    dut.write(PRESET, &(before as u32).to_le_bytes())?;
+    let mut values = vec![near];
+    if range > 4 * NOISE {
+        values.extend([0, range / 2 + 1, range - 1]);
+    }
+    let mut faults = Vec::new();
+    for value in values {
+        let was = (
+            at(dut, position)?,
+            offset.map(|it| at(dut, it)).transpose()?,
+        );
+        dut.write(preset, &(value as u32).to_le_bytes())?;
+        let is = at(dut, position)?;
+        let shown = at(dut, preset)?;
+        let now = offset.map(|it| at(dut, it)).transpose()?;
+        let off = is.abs_diff(value);
+        let off = off.min(range.wrapping_sub(off));
+        let moved = was.0.abs_diff(value) > NOISE;
+        faults.push(
+            ensure(
+                shown == value,
+                format!("{value} in {preset}, as written"),
+                format!("{shown} was read"),
+            )
+            .and(ensure(
+                off <= NOISE,
+                format!("{position} = {value}, the preset value"),
+                format!("{is} was read"),
+            ))
+            .and(ensure(
+                now.is_none() || !moved || was.1 != now,
+                format!(
+                    "another offset than before, as the position was {} and the preset value is {value}",
+                    was.0
+                ),
+                format!("{} was read", now.unwrap_or(0)),
+            )),
+        );
+    }
+    // Restores the position: the preset value that gives the earlier one.
+    dut.write(preset, &(before as u32).to_le_bytes())?;
     dut.notes.push(format!(
-        "the position is {before} again; 6003h was {} before",
+        "the position is {before} again; {preset} was {} before",
         values::hex(&old)
     ));
-    ensure(
-        shown == u64::from(value),
-        format!("{value} in 6003h, as written"),
-        format!("{shown} was read"),
-    )?;
-    ensure(
-        off <= 16,
-        format!("6004h = {value}, the preset value"),
-        format!("{is} was read"),
-    )?;
-    ensure(
-        offset.is_none() || u64::from(value) == before || offset_before != offset_after,
-        format!(
-            "another offset in 6509h, as the position was {before} and the preset value is {value}"
-        ),
-        format!("{} was read", offset_after.unwrap_or(0)),
-    )
+    for fault in faults {
+        dut.fault(fault)?;
+    }
+    Ok(())
 }
 
 /// 6200h is the event timer of the first TPDO.
@@ -134,16 +177,22 @@ pub(super) fn cyclic_timer(dut: &mut Dut<'_>) -> Checked {
         return lacks("TPDO1 is off");
     }
     super::transmit::event_driven(dut, &pdo)?;
-    dut.set(Address::new(0x6200, 0), &60u16.to_le_bytes())?;
-    if dut.eds.entry(0x1800, 5).is_some() {
-        let is = dut.number(0x1800, 5)?;
-        // Some devices can delay the timer by a few milliseconds.
-        ensure(
-            is.abs_diff(60) <= 5,
-            "60 ms in 1800h:05, as 6200h is the same timer",
-            format!("{is} was read"),
-        )?;
+    let views = [Address::new(0x6200, 0), Address::new(0x1800, 5)];
+    for (written, other) in [(views[1], views[0]), (views[0], views[1])] {
+        let has_both = dut.eds.writes(written.index, written.sub)
+            && dut.eds.entry(other.index, other.sub).is_some();
+        for millis in [300u16, 60].into_iter().filter(|_| has_both) {
+            dut.set(written, &millis.to_le_bytes())?;
+            let is = dut.number(other.index, other.sub)?;
+            // Some devices can delay the timer by a few milliseconds.
+            ensure(
+                is.abs_diff(millis.into()) <= 5,
+                format!("{millis} ms in {other}, as {written} is the same timer"),
+                format!("{is} was read"),
+            )?;
+        }
     }
+    dut.set(views[0], &60u16.to_le_bytes())?;
     let shown = "every 60 ms, as 6200h says, 10 % off at most";
     let is_right = |gap: u64, slack: u64| gap.abs_diff(60_000) <= 6_000 + slack;
     super::transmit::gaps(dut, &pdo, 4, is_right, shown)
@@ -155,12 +204,29 @@ pub(super) fn code_sequence(dut: &mut Dut<'_>) -> Checked {
     let before = dut.keep(address)?;
     let mut other = before.clone();
     other[0] ^= 1;
+    let place = dut.number(0x6004, 0)?;
     dut.write(address, &other)?;
     let is = dut.number(0x6500, 0)?;
+    let mirrored = dut.number(0x6004, 0)?;
+    dut.write(address, &before)?;
+    let again = dut.number(0x6004, 0)?;
     ensure(
         is as u8 & 1 == other[0] & 1,
         format!("bit 0 of 6500h = {}", other[0] & 1),
         format!("{is:04X}h was read"),
+    )?;
+    let range = dut.number(0x6002, 0)?;
+    // At 0 and in the middle of the range both positions are the same.
+    let is_clear = range > 64 * NOISE && (2 * place) % range > 4 * NOISE;
+    ensure(
+        !is_clear || mirrored.abs_diff(place) > NOISE,
+        format!("another position than {place} with the other code sequence"),
+        format!("{mirrored} was read"),
+    )?;
+    ensure(
+        !is_clear || again.abs_diff(place) <= NOISE,
+        format!("the position {place} again with the code sequence from before"),
+        format!("{again} was read"),
     )
 }
 

@@ -116,7 +116,12 @@ pub(super) fn emcy(dut: &mut Dut<'_>, code: u16, micros: u64) -> Checked<Option<
 }
 
 /// As [`emcy`], with those that came since `from`, the number of a frame: also while the test waited for another frame.
-fn emcy_since(dut: &mut Dut<'_>, from: usize, code: u16, micros: u64) -> Checked<Option<Frame>> {
+pub(super) fn emcy_since(
+    dut: &mut Dut<'_>,
+    from: usize,
+    code: u16,
+    micros: u64,
+) -> Checked<Option<Frame>> {
     let id = dut.id(0x80);
     let came = |dut: &Dut<'_>| {
         let frames = dut.frames.get(from..).unwrap_or_default().iter();

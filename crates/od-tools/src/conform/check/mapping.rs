@@ -45,11 +45,7 @@ fn open(dut: &mut Dut<'_>) -> Checked<Open> {
 /// The entries of the mapping now.
 pub(super) fn entries(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked<Vec<u32>> {
     let all = mapping(dut, pdo.map())?;
-    let raw = |mapped: &super::transmit::Mapped| {
-        let Address { index, sub } = mapped.address;
-        u32::from(index) << 16 | u32::from(sub) << 8 | mapped.bits as u32
-    };
-    Ok(all.iter().map(raw).collect())
+    Ok(all.iter().map(super::transmit::Mapped::raw).collect())
 }
 
 fn opened(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked<Open> {
@@ -69,6 +65,13 @@ fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
     }
     dut.write(Address::new(map, 0), &[open.entries.len() as u8])?;
     switch(dut, &open.pdo, true)?;
+    let Tpdo { com, cob_id } = open.pdo;
+    let is = dut.number(com, 1)? as u32;
+    ensure(
+        is == cob_id,
+        format!("{cob_id:08X}h in {com:04X}h:01, as written"),
+        format!("{is:08X}h was read"),
+    )?;
     dut.notes.push(format!("put back the mapping {map:04X}h"));
     Ok(())
 }
@@ -177,7 +180,7 @@ pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
     each(dut, 0x1800, refuses_too_many)
 }
 
-/// The PDO refuses 65 mapped objects, and more than its mapping has entries.
+/// The PDO refuses more mapped objects than its mapping has entries, and 65 to 253, which are reserved.
 pub(super) fn refuses_too_many(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
     on(dut, pdo, |dut, map| {
         let codes = [
@@ -192,7 +195,7 @@ pub(super) fn refuses_too_many(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
         let own = dut.eds.dictionary().entries();
         let own = own.filter(|entry| entry.address.index == map);
         let highest = own.map(|entry| entry.address.sub).max().unwrap_or(64);
-        for count in [65, highest.min(64) + 1] {
+        for count in [highest.min(64) + 1, 65, 0x80, 0xFD] {
             dut.refuses_value(Address::new(map, 0), &[count], &codes)?;
         }
         Ok(())
@@ -351,9 +354,15 @@ pub(super) fn refused_by(dut: &mut Dut<'_>, pdo: Tpdo, entry: u32) -> Checked {
         ];
         let first = Address::new(map, 1);
         match dut.download(first, &entry.to_le_bytes())? {
-            Ok(()) => dut.refuses_value(Address::new(map, 0), &[1], &codes),
-            Err(_) => dut.refuses_value(first, &entry.to_le_bytes(), &codes),
+            Ok(()) => return dut.refuses_value(Address::new(map, 0), &[1], &codes),
+            Err(_) => dut.refuses_value(first, &entry.to_le_bytes(), &codes)?,
         }
+        // A node that refuses it there refuses it in every other place.
+        let shown = format!("as {map:04X}h:01 refuses it");
+        for sub in (2..=64).take_while(|sub| dut.eds.writes(map, *sub)) {
+            dut.cannot_change(Address::new(map, sub), &entry.to_le_bytes(), &shown)?;
+        }
+        Ok(())
     })
 }
 

@@ -8,6 +8,7 @@ mod emergency;
 mod encoder;
 mod file;
 mod heartbeat;
+mod kept;
 mod lss;
 mod mapping;
 mod module;
@@ -16,10 +17,13 @@ mod nmt;
 mod objects;
 mod outputs;
 mod rpdo;
+mod rpdos;
 mod segments;
+mod states;
 mod store;
 mod sync;
 mod tpdo;
+mod tpdos;
 mod transfer;
 mod transmit;
 
@@ -275,6 +279,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.3.2.2.1: Reset node, also to all nodes, restores the parameters of the application.").needs("reset"),
         check("nmt-reset-communication-application", nmt::keeps_application,
             "CiA 301 7.3.2.2.1: Reset communication keeps the parameters of the application.").needs("reset"),
+        check("nmt-reset-communication-each", kept::reset_communication,
+            "CiA 301 7.3.2.2.1: Reset communication restores every parameter of communication, also those of each PDO.").needs("reset"),
+        check("nmt-reset-node-each", kept::reset_node,
+            "CiA 301 7.3.2.2.1: Reset node restores every parameter of communication and of the application.").needs("reset"),
     ]),
     ("error control", &[
         script("heartbeat-write", include_str!("../cases/heartbeat-write.script")),
@@ -380,7 +388,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.37: The inhibit time of a valid TPDO cannot be changed.").applies("tpdo"),
         check("tpdo-start-value-fixed", tpdo::start_value_fixed,
             "CiA 301 7.5.2.37: The SYNC start value of a valid TPDO cannot be changed.").applies("tpdo"),
-        check("tpdo-each", tpdo::each,
+        check("tpdo-each", tpdos::each,
             "CiA 301 7.5.2.37: Every TPDO has its CAN-ID, the length of its mapping, its event timer and its inhibit time, and bit 31 disables it.").applies("tpdo"),
         check("tpdo-reset", tpdo::over_reset,
             "CiA 301 7.3.2.2.1: After reset communication the event timer is what sub-index 5 says then.").applies("tpdo").needs("reset"),
@@ -399,7 +407,9 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("mapping-while-on", mapping::while_on,
             "CiA 301 7.5.2.38: The mapping of a valid PDO cannot be changed, except to 0 mapped objects.").applies("tpdo"),
         check("mapping-too-many", mapping::too_many,
-            "CiA 301 7.5.2.38: 65 mapped objects are refused.").applies("tpdo"),
+            "CiA 301 7.5.2.38: More objects than a mapping has entries, and 65 to 253, are refused.").applies("tpdo"),
+        check("mapping-full", tpdo::full,
+            "CiA 301 7.5.2.38: Each TPDO carries the values of a mapping that is as long as possible.").applies("tpdo"),
         check("mapping-too-long", mapping::too_long,
             "CiA 301 7.5.2.38: More than 64 bits are refused with 06040042h.").applies("tpdo"),
         check("mapping-missing-object", mapping::missing_object,
@@ -430,8 +440,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.35: Without bit 29 of its COB-ID an RPDO ignores a frame with the same number of 29 bits.").applies("rpdo").needs("reset"),
         check("rpdo-reserved-types", rpdo::reserved_types,
             "CiA 301 7.5.2.35: Transmission types 241 to 253 are refused with 06090030h.").applies("rpdo"),
-        check("rpdo-each", rpdo::each,
-            "CiA 301 7.5.2.35: Every RPDO writes its mapped objects, with the next SYNC if it is synchronous, and none with bit 31.").applies("rpdo").needs("reset"),
+        check("rpdo-each", rpdos::each,
+            "CiA 301 7.5.2.35: Every RPDO writes its mapped objects in Operational, with the next SYNC if it is synchronous, none with bit 31 and none if it is too short.").applies("rpdo").needs("reset"),
         check("rpdo-mapping-procedure", rpdo::mapping_procedure,
             "CiA 301 7.5.2.36: A mapping of an RPDO is written by the procedure of CiA 301.").applies("rpdo"),
         check("rpdo-mapping-used", rpdo::mapping_used,
@@ -443,7 +453,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("rpdo-mapping-while-on", rpdo::mapping_while_on,
             "CiA 301 7.5.2.36: The mapping of a valid RPDO cannot be changed, except to 0 mapped objects.").applies("rpdo"),
         check("rpdo-mapping-too-many", rpdo::mapping_too_many,
-            "CiA 301 7.5.2.36: 65 mapped objects are refused.").applies("rpdo"),
+            "CiA 301 7.5.2.36: More objects than a mapping has entries, and 65 to 253, are refused.").applies("rpdo"),
         check("rpdo-mapping-too-long", rpdo::mapping_too_long,
             "CiA 301 7.5.2.36: More than 64 bits are refused with 06040042h.").applies("rpdo"),
         check("rpdo-mapping-missing-object", rpdo::mapping_missing_object,
@@ -456,6 +466,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.36: An object that cannot be mapped is refused by an RPDO with 06040041h.").applies("rpdo"),
         check("rpdo-dummy", rpdo::dummy,
             "CiA 301 7.5.2.36: A dummy of an RPDO takes its bits of the frame and writes nothing.").applies("rpdo").needs("reset"),
+        check("rpdo-mapping-full", rpdos::full,
+            "CiA 301 7.5.2.36: Each RPDO writes the objects of a mapping that is as long as possible.").applies("rpdo").needs("reset"),
+        check("rpdo-time-out", rpdos::time_out,
+            "CiA 301 7.5.2.35: An RPDO that does not come again within its event timer causes EMCY 8250h, and none before the first one.").applies("rpdo, 1014h").needs("reset"),
     ]),
     ("SYNC", &[
         check("sync-cob-id", sync::cob_id,
@@ -491,7 +505,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("sync-counter-restart", sync::counter_restart,
             "CiA 301 7.2.5.1: The SYNC counter begins with 1 after Stopped.").applies("1005h rw, 1006h rw, 1019h rw"),
         check("sync-counter-range", sync::counter_range,
-            "CiA 301 7.5.2.22: 1, 241 and 255 in 1019h are refused.").applies("1019h rw"),
+            "CiA 301 7.5.2.22: 1 and 241 to 255 in 1019h are refused, and the other values are accepted.").applies("1019h rw"),
         check("sync-counter-fixed", sync::counter_fixed,
             "CiA 301 7.5.2.22: While 1006h is not 0, 1019h cannot be changed.").applies("1006h rw, 1019h rw"),
     ]),
@@ -603,6 +617,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.32: With 1 in 1029h:01 the NMT state stays.").applies("1029h:01 rw, 1016h"),
         check("error-behaviour-stopped", |dut| emergency::behaviour(dut, 2, 4),
             "CiA 301 7.5.2.32: With 2 in 1029h:01 an error of communication leads to Stopped.").applies("1029h:01 rw, 1016h"),
+        check("error-behaviour-guarding", emergency::behaviour_guarding,
+            "CiA 301 7.5.2.32: The end of life guarding has the consequence of 1029h:01, too.").applies("1029h:01 rw, 100Ch rw, 100Dh rw"),
         check("error-behaviour-range", emergency::behaviour_range,
             "CiA 301 7.5.2.32: A value in 1029h:01 beyond the limits is refused.").applies("1029h:01 rw"),
     ]),
@@ -643,12 +659,18 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 402 6040h: Shutdown leads to Ready to switch on, and disable voltage back to Switch on disabled.").applies("cia402, 6040h rw, 6041h").needs("reset"),
         check("drive-order", drive::order,
             "CiA 402 6040h: Switch on has no effect in Switch on disabled.").applies("cia402, 6040h rw, 6041h").needs("reset"),
-        check("drive-mode", drive::mode,
-            "CiA 402 6061h: 6061h shows the mode that was written to 6060h.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
+        check("drive-mode", states::modes,
+            "CiA 402 6061h: 6061h shows each mode of 6502h that was written to 6060h, of each axis.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
         check("drive-other-mode", drive::other_mode,
             "CiA 402 6060h: A mode that 6502h lacks does not become active.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
         check("drive-enable", motion::enable,
             "CiA 402 6040h: The commands of the controlword lead from Switch on disabled to Operation enabled, and back.").applies("cia402, 6040h rw, 6041h").needs("motion"),
+        check("drive-state-machine", states::machine,
+            "CiA 402 6040h: In each state each command leads to the state that CiA 402 says, or changes nothing.").applies("cia402, 6040h rw, 6041h").needs("motion"),
+        check("drive-velocity-window", arrival::velocity_windows,
+            "CiA 402 606Dh: Bit 10 of 6041h becomes 1 when the velocity is within 606Dh, and bit 12 is 1 below 606Fh.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
+        check("drive-homing-methods", states::homing_methods,
+            "CiA 402 6098h: 6098h takes each method of 60E3h.").applies("cia402, 6040h rw, 6041h, 6098h rw, 60E3h").needs("motion"),
         check("drive-position-window-time", arrival::position_window_time,
             "CiA 402 6068h: Bit 10 of 6041h becomes 1 when the position was within 6067h for this time.").applies("cia402, 6040h rw, 6064h, 6067h, 6068h rw, 607Ah rw").needs("motion"),
         check("drive-set-point", motion::set_point,
@@ -735,6 +757,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.13: 1010h:02 saves the communication parameters.").applies("1010h:02").needs("reset, store"),
         check("store-all", store::save_all,
             "CiA 301 7.5.2.13: Every changed communication parameter is saved, and the save itself changes none.").applies("1010h:01").needs("reset, store"),
+        check("store-each", kept::saves_each,
+            "CiA 301 7.5.2.13: Every parameter is saved, also those of the application, of the manufacturer and of each PDO.").applies("1010h:01").needs("reset, store"),
         check("store-application", |dut| store::save_apart(dut, Apart::Application),
             "CiA 301 7.5.2.13: 1010h:03 saves the parameters of the application, and 1010h:02 does not.").applies("1010h:01, 1010h:02, 1010h:03").needs("reset, store"),
         check("store-manufacturer", |dut| store::save_apart(dut, Apart::Manufacturer),
@@ -769,6 +793,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.14: 1011h:02 restores the communication parameters.").applies("1011h:02, 1010h:02").needs("reset, store"),
         check("restore-all", store::load_all,
             "CiA 301 7.5.2.14: After a restore and a reset every changed communication parameter has its default.").applies("1011h:01, 1010h:01").needs("reset, store"),
+        check("restore-each", kept::restores_each,
+            "CiA 301 7.5.2.14: After a restore and a reset every parameter has its default, also those of the application, of the manufacturer and of each PDO.").applies("1011h:01, 1010h:01").needs("reset, store"),
         check("restore-after-reset", store::load_after_reset,
             "CiA 301 7.5.2.14: A restore takes effect with the next reset.").applies("1011h:01, 1010h:01").needs("reset, store"),
     ]),

@@ -33,10 +33,10 @@ pub(super) const HALT: u16 = 1 << 8;
 
 /// A state in the statusword (6041h): its name, the mask of its bits, and their values.
 pub(super) type Shown<'s> = (&'s str, u64, u64);
-const DISABLED: Shown<'_> = ("Switch on disabled", 0x4F, 0x40);
+pub(super) const DISABLED: Shown<'_> = ("Switch on disabled", 0x4F, 0x40);
 pub(super) const READY: Shown<'_> = ("Ready to switch on", 0x6F, 0x21);
 pub(super) const SWITCHED_ON: Shown<'_> = ("Switched on", 0x6F, 0x23);
-const ENABLED: Shown<'_> = ("Operation enabled", 0x6F, 0x27);
+pub(super) const ENABLED: Shown<'_> = ("Operation enabled", 0x6F, 0x27);
 const QUICK_STOP: Shown<'_> = ("Quick stop active", 0x6F, 0x07);
 const FAULT: Shown<'_> = ("Fault", 0x4F, 0x08);
 pub(super) const REACHED: Shown<'_> = ("target reached, bit 10 = 1", 1 << 10, 1 << 10);
@@ -344,21 +344,32 @@ pub(super) fn set_point(dut: &mut Dut<'_>) -> Checked {
         }
         let pace = axis.pace(dut)?;
         axis.set(dut, 0x6081, pace)?;
-        let target = target - axis.way(dut)?;
-        axis.set_point(dut, target, 0)?;
-        let end = dut.now().plus_micros(MOVE);
-        let window = axis.window(dut, 0x606D)?.max(pace / 10);
-        let mut speed = 0;
-        while axis.value(dut, 0x6041)? as u64 & REACHED.1 == 0 && dut.now() < end {
-            speed = axis.value(dut, 0x606C)?.abs().max(speed);
-            dut.wait(2_000)?;
+        let mut target = target;
+        for (index, most) in [(0x6081, pace), (0x607F, pace / 2)] {
+            if index == 0x607F && (!dut.eds.writes(index + axis.0, 0) || pace < 2) {
+                continue;
+            }
+            axis.set(dut, index, most)?;
+            target -= axis.way(dut)?;
+            axis.set_point(dut, target, 0)?;
+            let end = dut.now().plus_micros(MOVE);
+            let window = axis.window(dut, 0x606D)?.max(most / 10);
+            let mut speed = 0;
+            while axis.value(dut, 0x6041)? as u64 & REACHED.1 == 0 && dut.now() < end {
+                speed = axis.value(dut, 0x606C)?.abs().max(speed);
+                dut.wait(2_000)?;
+            }
+            ensure(
+                speed <= most + window,
+                format!(
+                    "{} within {most}, the value of {index:04X}h",
+                    axis.at(0x606C)
+                ),
+                format!("{speed} was read"),
+            )?;
+            axis.arrives(dut, target)?;
         }
-        ensure(
-            speed <= pace + window,
-            format!("{} within {pace}, the value of 6081h", axis.at(0x606C)),
-            format!("{speed} was read"),
-        )?;
-        axis.arrives(dut, target)
+        Ok(())
     })
 }
 
@@ -856,6 +867,23 @@ pub(super) fn connection_lost(dut: &mut Dut<'_>) -> Checked {
             );
             dut.fault(done)?;
         }
+        axis.command(dut, 0x80)?;
+        axis.shows(dut, CHANGE, DISABLED)?;
+        // The change of bit 7 from 0 to 1 resets a fault: one that occurs later stays.
+        axis.command(dut, 0)?;
+        axis.enable(dut)?;
+        axis.command(dut, ENABLE | 0x80)?;
+        dut.nmt(Command::Stop)?;
+        dut.nmt(Command::Start)?;
+        axis.shows(dut, MOVE, FAULT)?;
+        axis.command(dut, ENABLE | 0x80)?;
+        dut.wait(50_000)?;
+        axis.shows(
+            dut,
+            0,
+            ("Fault, as bit 7 of 6040h stayed 1,", FAULT.1, FAULT.2),
+        )?;
+        axis.command(dut, 0)?;
         axis.command(dut, 0x80)?;
         axis.shows(dut, CHANGE, DISABLED)
     })

@@ -6,15 +6,11 @@ use od_wire::{CanId, CobId, Frame};
 
 use super::heartbeat::{beat, emcy, sends_emcy, watch};
 use super::mapping::{self, DUMMY, each_refuses, on, raw};
+use super::rpdos::{NEEDS_MOTION, has_sound_mapping, outputs, takes, with_another};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::{Dut, FREE};
-use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks, skip};
-use crate::conform::sdo::abort_text;
-
-/// Reason to skip a case without the permission.
-const NEEDS_MOTION: &str =
-    "the case needs --allow-motion, since each RPDO moves an axis or sets outputs";
+use crate::conform::end::{Checked, ensure, fail, lacks, skip};
 
 /// A valid RPDO, and the first value that it writes.
 struct Rpdo {
@@ -383,12 +379,6 @@ fn any_on(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     lacks("no RPDO is on with a mapping that the EDS allows")
 }
 
-/// Returns whether the EDS allows the mapping of an RPDO; the case pdo-mapped-objects tests this.
-fn has_sound_mapping(dut: &mut Dut<'_>, com: u16) -> Checked<bool> {
-    let all = mapping(dut, com + 0x200)?;
-    Ok(contradiction(dut.eds, &all, false).is_none())
-}
-
 /// The mapping of an RPDO can be written by the procedure of CiA 301.
 pub(super) fn mapping_procedure(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
@@ -459,154 +449,6 @@ pub(super) fn mapping_wrong_length(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// Objects of 8, 16 or 32 bits that an RPDO may map and that can be read, in order; without the permission, only those
-/// that move nothing.
-fn outputs(dut: &Dut<'_>) -> Checked<Vec<Entry>> {
-    let fits = |entry: &Entry| {
-        entry.maps_to_rpdo()
-            && entry.access.readable()
-            && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
-    };
-    let mut all: Vec<Entry> = dut.eds.dictionary().entries().filter(fits).collect();
-    let is_any = !all.is_empty();
-    all.retain(|entry| dut.may_move || !dut.eds.moves(entry.address));
-    if is_any && all.is_empty() {
-        return skip(NEEDS_MOTION);
-    }
-    Ok(all)
-}
-
-/// A frame that changes the first byte of each object of a mapping.
-struct Changed {
-    bytes: Vec<u8>,
-    /// Each object, its value before, and that of the frame.
-    values: Vec<(Address, Vec<u8>, Vec<u8>)>,
-}
-
-impl Changed {
-    /// Reads the objects of these mapping entries; a dummy takes its bits as 0.
-    fn of(dut: &mut Dut<'_>, entries: &[u32]) -> Checked<Self> {
-        let (mut bytes, mut values) = (Vec::new(), Vec::new());
-        for entry in entries {
-            let address = Address::new((entry >> 16) as u16, (entry >> 8) as u8);
-            if address.index < 0x20 {
-                bytes.resize(bytes.len() + (entry & 0xFF) as usize / 8, 0);
-                continue;
-            }
-            let before = dut.keep(address)?;
-            let mut wanted = before.clone();
-            if let Some(first) = wanted.first_mut() {
-                *first ^= 1;
-            }
-            bytes.extend_from_slice(&wanted);
-            values.push((address, before, wanted));
-        }
-        Ok(Self { bytes, values })
-    }
-
-    /// Sends the frame in Operational.
-    fn send(&self, dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
-        dut.nmt(Command::Start)?;
-        if let Some(frame) = Frame::new(pdo.id(), &self.bytes) {
-            dut.send(frame)?;
-        }
-        dut.wait(20_000)
-    }
-
-    /// Fails unless each object has its value before, or that of the frame.
-    fn holds(&self, dut: &mut Dut<'_>, is_new: bool, why: &str) -> Checked {
-        for (address, before, wanted) in &self.values {
-            let wanted = if is_new { wanted } else { before };
-            let is = dut.read(*address)?;
-            ensure(
-                is == *wanted,
-                format!("{} in {address}{why}", values::hex(wanted)),
-                format!("{} was read", values::hex(&is)),
-            )?;
-        }
-        Ok(())
-    }
-}
-
-/// Maps only these entries to the RPDO, and sends other values, which the objects must have then.
-fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
-    for (sub, entry) in (1..).zip(entries) {
-        if let Err(code) = dut.download(Address::new(map, sub), &entry.to_le_bytes())? {
-            return fail(
-                format!("{entry:08X}h in {map:04X}h:{sub:02X}"),
-                abort_text(code),
-            );
-        }
-    }
-    dut.write(Address::new(map, 0), &[entries.len() as u8])?;
-    dut.keep(pdo.address(2))?;
-    let _ = dut.download(pdo.address(2), &[255])?;
-    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    let changed = Changed::of(dut, entries)?;
-    changed.send(dut, pdo)?;
-    let why = format!(", as RPDO{} has it", pdo.com - 0x13FF);
-    let done = changed.holds(dut, true, &why);
-    dut.nmt(Command::EnterPreOperational)?;
-    done
-}
-
-/// A frame that is too short writes nothing, and one that is too long writes its first bytes.
-fn lengths(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
-    let number = pdo.com - 0x13FF;
-    let mut changed = Changed::of(dut, entries)?;
-    let last = changed.bytes.pop();
-    changed.send(dut, pdo)?;
-    let why = format!(", as RPDO{number} was too short");
-    changed.holds(dut, false, &why)?;
-    changed.bytes.extend(last.into_iter().chain([0]));
-    if changed.bytes.len() > 8 {
-        return dut.nmt(Command::EnterPreOperational);
-    }
-    changed.send(dut, pdo)?;
-    let why = format!(", from the first bytes of RPDO{number}, which was too long");
-    let done = changed.holds(dut, true, &why);
-    dut.nmt(Command::EnterPreOperational)?;
-    done
-}
-
-/// A synchronous RPDO of these objects waits for SYNC, and one that is not valid writes nothing.
-fn waits(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
-    let changed = Changed::of(dut, entries)?;
-    let number = pdo.com - 0x13FF;
-    if dut.download(pdo.address(2), &[1])?.is_ok() {
-        changed.send(dut, pdo)?;
-        changed.holds(dut, false, &format!(", as RPDO{number} waits for SYNC"))?;
-        sync(dut)?;
-        dut.wait(20_000)?;
-        let done = changed.holds(dut, true, " after SYNC");
-        dut.nmt(Command::EnterPreOperational)?;
-        done?;
-        // The same frame once more would change nothing.
-        for (address, before, _) in &changed.values {
-            dut.write(*address, before)?;
-        }
-        let _ = dut.download(pdo.address(2), &[255])?;
-    }
-    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
-    changed.send(dut, pdo)?;
-    let done = changed.holds(dut, false, &format!(", as RPDO{number} is off"));
-    dut.nmt(Command::EnterPreOperational)?;
-    done
-}
-
-/// This object, and another one after it if the mapping has room for both.
-fn with_another(dut: &Dut<'_>, map: u16, all: &[Entry], first: &Entry) -> Vec<u32> {
-    let other = all.iter().find(|entry| {
-        let bits = (raw(first) & 0xFF) + (raw(entry) & 0xFF);
-        entry.address != first.address && bits <= 64 && dut.eds.writes(map, 2)
-    });
-    [Some(first), other]
-        .into_iter()
-        .flatten()
-        .map(raw)
-        .collect()
-}
-
 /// An RPDO writes the objects of a new mapping.
 pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
@@ -632,39 +474,4 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
         return lacks("no object can be mapped");
     };
     on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[DUMMY, entry]))
-}
-
-/// Every valid RPDO writes the objects of its mapping; one without a mapping gets one.
-pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
-    learn_sync(dut)?;
-    let all = outputs(dut)?;
-    let mut any = false;
-    for number in dut.eds.pdos(0x1400) {
-        let com = 0x1400 + number;
-        let cob_id = dut.number(com, 1)? as u32;
-        if !is_on(cob_id) || !has_sound_mapping(dut, com)? {
-            continue;
-        }
-        let now = mapping(dut, com + 0x200)?;
-        let own = now.first().map(|mapped| mapped.address);
-        let own = all.iter().find(|entry| Some(entry.address) == own);
-        let Some(entry) = own.or_else(|| all.first()) else {
-            return lacks("no object can be mapped");
-        };
-        let pdo = Tpdo { com, cob_id };
-        let entries = with_another(dut, pdo.map(), &all, entry);
-        let done = on(dut, pdo, |dut, map| {
-            takes(dut, &pdo, map, &entries)?;
-            lengths(dut, &pdo, &entries)?;
-            waits(dut, &pdo, &entries)
-        });
-        match done {
-            Err(End::NotApplicable(_)) => {}
-            done => {
-                dut.fault(done)?;
-                any = true;
-            }
-        }
-    }
-    at_least_one(any, "no RPDO is on whose mapping can be written")
 }

@@ -4,7 +4,8 @@ use od_model::Address;
 use od_wire::nmt::Command;
 use od_wire::{CanId, CobId, Frame};
 
-use super::transmit::{learn_sync, sync, typed};
+use super::tpdos::on_each;
+use super::transmit::{Tpdo, learn_sync, sync, typed, typed_on};
 use crate::conform::dut::{Dut, FREE, QUIET};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::link::Heard;
@@ -83,7 +84,7 @@ pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A new period takes effect while the node produces SYNC.
+/// A new period takes effect while the node produces SYNC: a shorter one, and one of more than two bytes.
 pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     let raw = produce(dut)?;
     let id = CobId::new(raw).can_id();
@@ -91,28 +92,35 @@ pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     if dut.next(200_000, is_sync)?.is_none() {
         return fail("a SYNC message every 50 ms", "none came for 200 ms");
     }
-    dut.write(Address::new(0x1006, 0), &20_000u32.to_le_bytes())?;
-    // The period from before may end first.
-    dut.wait(60_000)?;
-    let mut last = None;
-    let mut gaps = Vec::new();
-    for _ in 0..6 {
-        let Some(heard) = dut.next(200_000, is_sync)? else {
-            return fail("a SYNC message every 20 ms", "none came for 200 ms");
-        };
-        if let Some(before) = last.replace(heard.at) {
-            gaps.push(heard.at.micros_since(before));
+    for (period, count) in [(20_000u32, 6), (100_000, 4)] {
+        let millis = period / 1000;
+        dut.write(Address::new(0x1006, 0), &period.to_le_bytes())?;
+        // The period from before may end first.
+        dut.wait(60_000)?;
+        let mut last = None;
+        let mut gaps = Vec::new();
+        for _ in 0..count {
+            let Some(heard) = dut.next(200_000, is_sync)? else {
+                return fail(
+                    format!("a SYNC message every {millis} ms"),
+                    "none came for 200 ms",
+                );
+            };
+            if let Some(before) = last.replace(heard.at) {
+                gaps.push(heard.at.micros_since(before));
+            }
         }
+        gaps.sort_unstable();
+        let middle = gaps[gaps.len() / 2];
+        let done = ensure(
+            middle.abs_diff(period.into()) <= u64::from(period) / 10 + dut.rig.slack(),
+            format!("a SYNC message every {millis} ms after a change of 1006h, 10 % off at most"),
+            format!("they came every {middle} us"),
+        );
+        dut.fault(done)?;
     }
     dut.nmt(Command::EnterPreOperational)?;
-    dut.write(COB_ID, &raw.to_le_bytes())?;
-    gaps.sort_unstable();
-    let middle = gaps[gaps.len() / 2];
-    ensure(
-        middle.abs_diff(20_000) <= 2_000 + dut.rig.slack(),
-        "a SYNC message every 20 ms after a change of 1006h from 50 ms, 10 % off at most",
-        format!("they came every {middle} us"),
-    )
+    dut.write(COB_ID, &raw.to_le_bytes())
 }
 
 /// While the node produces SYNC, the CAN-ID in 1005h cannot be changed.
@@ -368,18 +376,24 @@ pub(super) fn counter_fixed(dut: &mut Dut<'_>) -> Checked {
     dut.refuses_value(address, &[other], &codes)
 }
 
-/// A TPDO with a SYNC start value waits for the SYNC message with this counter.
+/// A TPDO with a SYNC start value waits for the SYNC message with this counter, and with 0 for any.
 pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let pdo = typed(dut, 1)?;
-    if !dut.eds.writes(pdo.com, 6) || !dut.eds.writes(pdo.com, 1) {
-        return lacks("the SYNC start value cannot be written");
-    }
-    // The case restores both itself: 1019h while 1006h is 0, the start value while the PDO is not
-    // valid.
+    // 1019h can be written only while the period is 0.
     let counter = Address::new(0x1019, 0);
     dut.set(Address::new(0x1006, 0), &[0; 4])?;
     dut.set(counter, &[10])?;
+    on_each(dut, |dut, pdo, _| {
+        typed_on(dut, pdo, 1)?;
+        if !dut.eds.writes(pdo.com, 6) || !dut.eds.writes(pdo.com, 1) {
+            return lacks("the SYNC start value cannot be written");
+        }
+        begins_with(dut, pdo)
+    })
+}
+
+fn begins_with(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    // The case restores the start value itself, while the PDO is not valid.
     let off = (pdo.cob_id | 1 << 31).to_le_bytes();
     dut.write(pdo.address(1), &off)?;
     let before = dut.read(pdo.address(6))?;
@@ -388,6 +402,8 @@ pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
     for (start, counts, wanted) in [
         (3, [1, 2, 3, 4, 5], &[3, 4, 5][..]),
         (2, [9, 10, 1, 2, 3], &[2, 3]),
+        (10, [8, 9, 10, 1, 2], &[10, 1, 2]),
+        (0, [7, 8, 9, 10, 1], &[7, 8, 9, 10, 1]),
     ] {
         dut.write(pdo.address(6), &[start])?;
         dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
@@ -417,32 +433,63 @@ pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
     dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())
 }
 
-/// With 1019h the counter of SYNC runs from 1 to its value.
+/// With 1019h the counter of SYNC runs from 1 to its value; with 0 SYNC has no data again.
 pub(super) fn counter(dut: &mut Dut<'_>) -> Checked {
-    // 1019h can be written only while the period is 0.
-    dut.set(Address::new(0x1006, 0), &[0; 4])?;
-    dut.set(Address::new(0x1019, 0), &[4])?;
-    let all = produced(dut, 9)?;
-    let counts: Vec<u8> = all.iter().map(|heard| heard.frame.bytes()[0]).collect();
-    let follows = |pair: &[u8]| pair[1] == if pair[0] == 4 { 1 } else { pair[0] + 1 };
-    let is_right = all.iter().all(|heard| heard.frame.dlc() == 1)
-        && counts.iter().all(|count| (1..=4).contains(count))
-        && counts.windows(2).all(follows);
-    // 1019h can be restored only while 1006h is 0.
-    dut.write(Address::new(0x1006, 0), &[0; 4])?;
-    ensure(
-        is_right,
-        "SYNC with a counter from 1 to 4",
-        format!("{counts:?}"),
-    )
+    let (period, counter) = (Address::new(0x1006, 0), Address::new(0x1019, 0));
+    dut.keep(counter)?;
+    for most in [4u8, 2, 11, 0] {
+        // 1019h can be written only while the period is 0.
+        dut.set(period, &[0; 4])?;
+        dut.write(counter, &[most])?;
+        let all = produced(dut, 2 * usize::from(most) + 1)?;
+        dut.write(period, &[0; 4])?;
+        if most == 0 {
+            let with_data = all.iter().find(|heard| heard.frame.dlc() != 0);
+            let done = match with_data {
+                Some(heard) => fail(
+                    "SYNC without data with 0 in 1019h again",
+                    format!("{} came", heard.frame),
+                ),
+                None => Ok(()),
+            };
+            dut.fault(done)?;
+            continue;
+        }
+        let counts: Vec<u8> = all.iter().map(|heard| heard.frame.bytes()[0]).collect();
+        let follows = |pair: &[u8]| pair[1] == if pair[0] == most { 1 } else { pair[0] + 1 };
+        let is_right = all.iter().all(|heard| heard.frame.dlc() == 1)
+            && counts.iter().all(|count| (1..=most).contains(count))
+            && counts.windows(2).all(follows);
+        let done = ensure(
+            is_right,
+            format!("SYNC with a counter from 1 to {most}, the value of 1019h"),
+            format!("{counts:?}"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 pub(super) fn counter_range(dut: &mut Dut<'_>) -> Checked {
     use od_wire::AbortCode::{ValueRange, ValueTooHigh, ValueTooLow};
     let address = Address::new(0x1019, 0);
     dut.keep(address)?;
-    for value in [1, 241, 255] {
-        dut.refuses_value(address, &[value], &[ValueRange, ValueTooHigh, ValueTooLow])?;
+    for value in [1].into_iter().chain(241..=255) {
+        let codes = [ValueRange, ValueTooHigh, ValueTooLow];
+        let done = dut.refuses_value(address, &[value], &codes);
+        dut.fault(done)?;
+    }
+    // Each other value is right.
+    dut.set(Address::new(0x1006, 0), &[0; 4])?;
+    for value in [2, 3, 127, 128, 239, 240, 0] {
+        dut.write(address, &[value])?;
+        let is = dut.read(address)?;
+        let done = ensure(
+            is == [value],
+            format!("{value} in {address}, as written"),
+            format!("{is:02X?} was read"),
+        );
+        dut.fault(done)?;
     }
     Ok(())
 }

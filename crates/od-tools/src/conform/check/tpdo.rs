@@ -2,18 +2,19 @@
 
 use std::ops::RangeInclusive;
 
-use od_model::{Address, Entry, values};
+use od_model::{Address, values};
 use od_wire::AbortCode::{ValueRange, ValueTooHigh};
 use od_wire::nmt::Command;
 use od_wire::{CanId, CobId};
 
+use super::tpdos::on_each;
 use super::transmit::{
-    Mapped, Tpdo, contradiction, event_driven, first, gaps, is_on, learn_sync, mapping, next, none,
-    sync, timed, typed,
+    Mapped, Tpdo, contradiction, first, gaps, is_on, learn_sync, mapping, next, none,
+    starts_silent, sync, timed, timed_on, timer_gaps, typed, typed_on,
 };
 use crate::conform::dut::{Dut, FREE, QUIET};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
-use crate::conform::sdo::number;
+use crate::conform::sdo::{abort_text, number};
 
 pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
     for base in [0x1400, 0x1800] {
@@ -60,36 +61,47 @@ pub(super) fn mapped_objects(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
+/// Event timers of one byte and of two, with both event-driven transmission types.
 pub(super) fn event_timer(dut: &mut Dut<'_>) -> Checked {
-    let pdo = timed(dut, 100)?;
-    for kind in [254, 255] {
-        // A node may have one of the two types.
-        if dut.download(pdo.address(2), &[kind])?.is_err() {
-            continue;
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 100)?;
+        for kind in [254, 255] {
+            // A node may have one of the two types.
+            if dut.download(pdo.address(2), &[kind])?.is_err() {
+                continue;
+            }
+            for (millis, count) in [(100u16, 5), (300, 2)] {
+                dut.write(pdo.address(5), &millis.to_le_bytes())?;
+                let wanted = u64::from(millis) * 1000;
+                let shown = format!(
+                    "every {millis} ms, with transmission type {kind} of TPDO{}",
+                    pdo.com - 0x17FF
+                );
+                timer_gaps(dut, pdo, count, wanted, &shown)?;
+                dut.nmt(Command::EnterPreOperational)?;
+            }
         }
-        gaps(
-            dut,
-            &pdo,
-            5,
-            |gap, slack| gap.abs_diff(100_000) <= 10_000 + slack,
-            &format!("every 100 ms, with transmission type {kind}"),
-        )?;
-        dut.nmt(Command::EnterPreOperational)?;
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
-/// One TPDO with every n-th SYNC, and none without SYNC.
+/// Each TPDO comes once with every n-th SYNC, and not without SYNC.
 pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
     learn_sync(dut)?;
-    let pdo = typed(dut, kind)?;
-    starts_silent(dut, &pdo)?;
-    none(dut, &pdo, 200_000, "no TPDO without SYNC")?;
+    on_each(dut, |dut, pdo, _| with_sync(dut, pdo, kind, count))
+}
+
+fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u8) -> Checked {
+    typed_on(dut, pdo, kind)?;
+    starts_silent(dut, pdo)?;
+    none(dut, pdo, 200_000, "no TPDO without SYNC")?;
+    // A TPDO that comes rarely does not need as much time after each SYNC.
+    let pause = if kind > 10 { 5_000 } else { 30_000 };
     let mut came = Vec::new();
     for turn in 0..count {
         sync(dut)?;
         let mut number = 0;
-        while next(dut, &pdo, 30_000)?.is_some() {
+        while next(dut, pdo, pause)?.is_some() {
             number += 1;
             if number > 3 {
                 break;
@@ -103,102 +115,109 @@ pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
     let is_even = came.windows(2).all(|pair| pair[1].0 - pair[0].0 == kind);
     ensure(
         came.len() == usize::from(wanted) && is_even && came.iter().all(|(_, number)| *number == 1),
-        format!("one TPDO with every {kind}. SYNC"),
+        format!("TPDO{} once with every {kind}. SYNC", pdo.com - 0x17FF),
         format!("of {count} SYNCs these had some: {came:?}"),
     )
 }
 
 pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let pdo = typed(dut, 0)?;
-    starts_silent(dut, &pdo)?;
-    none(dut, &pdo, 300_000, "no TPDO without SYNC")?;
-    // A TPDO of this type also needs an event, and without a change of its value there is none.
-    let (mut last, mut same) = (None, 0);
-    for _ in 0..SYNCS {
-        sync(dut)?;
-        if let Some(heard) = next(dut, &pdo, 30_000)? {
-            let data = heard.frame.data().to_vec();
-            same += u8::from(last.replace(data.clone()) == Some(data));
+    on_each(dut, |dut, pdo, _| {
+        typed_on(dut, pdo, 0)?;
+        starts_silent(dut, pdo)?;
+        none(dut, pdo, 300_000, "no TPDO without SYNC")?;
+        // A TPDO of this type also needs an event, and without a change of its value there is none.
+        let (mut last, mut same) = (None, 0);
+        for _ in 0..SYNCS {
+            sync(dut)?;
+            if let Some(heard) = next(dut, pdo, 30_000)? {
+                let data = heard.frame.data().to_vec();
+                same += u8::from(last.replace(data.clone()) == Some(data));
+            }
         }
-    }
-    ensure(
-        same < SYNCS - 1,
-        "a TPDO with SYNC only after an event",
-        format!("it came with each of {SYNCS} SYNC messages, with the same bytes"),
-    )
+        ensure(
+            same < SYNCS - 1,
+            format!("TPDO{} with SYNC only after an event", pdo.com - 0x17FF),
+            format!("it came with each of {SYNCS} SYNC messages, with the same bytes"),
+        )
+    })
 }
 
 /// Number of SYNC messages for a TPDO that needs an event.
 const SYNCS: u8 = 6;
 
-/// Starts the node; a synchronous TPDO does not come with the start.
-fn starts_silent(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
-    let from = dut.frames.len();
-    dut.nmt(Command::Start)?;
-    let mut came = dut.frames.get(from..).unwrap_or_default().iter();
-    match came.find(|traced| !traced.ours && pdo.carries(&traced.frame)) {
-        Some(traced) => fail(
-            "no TPDO without SYNC",
-            format!("{} came with the start of the node", traced.frame),
-        ),
-        None => Ok(()),
-    }
-}
-
 /// With transmission type 252 the node samples with SYNC, and sends only after a remote frame.
 pub(super) fn rtr_synchronous(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let pdo = typed(dut, 252)?;
-    if !CobId::new(pdo.cob_id).allows_rtr() {
-        return lacks("the COB-ID forbids remote frames (bit 30)");
-    }
-    starts_silent(dut, &pdo)?;
-    for _ in 0..3 {
-        sync(dut)?;
-        none(
-            dut,
-            &pdo,
-            50_000,
-            "no TPDO with SYNC, without a remote frame",
-        )?;
-    }
-    dut.ask_for(pdo.id(), 8)?;
-    // Devices differ in whether they send at once or with the next SYNC.
-    if next(dut, &pdo, QUIET)?.is_none() {
-        sync(dut)?;
-        if next(dut, &pdo, QUIET)?.is_none() {
-            return fail(
-                "the TPDO after its remote frame, with the next SYNC at the latest",
-                "none came",
-            );
+    on_each(dut, |dut, pdo, len| {
+        typed_on(dut, pdo, 252)?;
+        if !CobId::new(pdo.cob_id).allows_rtr() {
+            return lacks("the COB-ID forbids remote frames (bit 30)");
         }
-    }
-    Ok(())
+        starts_silent(dut, pdo)?;
+        for _ in 0..2 {
+            for _ in 0..3 {
+                sync(dut)?;
+                none(
+                    dut,
+                    pdo,
+                    50_000,
+                    "no TPDO with SYNC, without a remote frame",
+                )?;
+            }
+            dut.ask_for(pdo.id(), len as u8)?;
+            // Devices differ in whether they send at once or with the next SYNC.
+            if next(dut, pdo, QUIET)?.is_none() {
+                sync(dut)?;
+                if next(dut, pdo, QUIET)?.is_none() {
+                    return fail(
+                        format!(
+                            "TPDO{} after its remote frame, with the next SYNC at the latest",
+                            pdo.com - 0x17FF
+                        ),
+                        "none came",
+                    );
+                }
+            }
+        }
+        Ok(())
+    })
 }
 
 /// With transmission type 253 only a remote frame sends the TPDO, and the event timer does not.
 pub(super) fn rtr_only(dut: &mut Dut<'_>) -> Checked {
-    let pdo = typed(dut, 253)?;
-    if !CobId::new(pdo.cob_id).allows_rtr() {
-        return lacks("the COB-ID forbids remote frames (bit 30)");
-    }
-    if dut.eds.writes(pdo.com, 5) {
-        dut.set(pdo.address(5), &50u16.to_le_bytes())?;
-    }
-    dut.nmt(Command::Start)?;
-    none(dut, &pdo, 300_000, "no TPDO without a remote frame")?;
-    dut.ask_for(pdo.id(), 8)?;
-    match next(dut, &pdo, QUIET)? {
-        Some(_) => Ok(()),
-        None => fail("the TPDO within 100 ms of its remote frame", "none came"),
-    }
+    learn_sync(dut)?;
+    on_each(dut, |dut, pdo, len| {
+        typed_on(dut, pdo, 253)?;
+        if !CobId::new(pdo.cob_id).allows_rtr() {
+            return lacks("the COB-ID forbids remote frames (bit 30)");
+        }
+        if dut.eds.writes(pdo.com, 5) {
+            dut.set(pdo.address(5), &50u16.to_le_bytes())?;
+        }
+        let number = pdo.com - 0x17FF;
+        dut.nmt(Command::Start)?;
+        for _ in 0..2 {
+            let expected = format!("no TPDO{number} without a remote frame");
+            none(dut, pdo, 300_000, &expected)?;
+            sync(dut)?;
+            none(dut, pdo, 50_000, &expected)?;
+            dut.ask_for(pdo.id(), len as u8)?;
+            if next(dut, pdo, QUIET)?.is_none() {
+                return fail(
+                    format!("TPDO{number} within 100 ms of its remote frame"),
+                    "none came",
+                );
+            }
+        }
+        Ok(())
+    })
 }
 
 /// Each valid TPDO that allows remote frames; one without a mapping gets one.
 pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
     first(dut)?;
-    let is_tested = on_each(dut, |dut, pdo, len| {
+    on_each(dut, |dut, pdo, len| {
         if !CobId::new(pdo.cob_id).allows_rtr() {
             return lacks("the COB-ID forbids remote frames (bit 30)");
         }
@@ -214,8 +233,7 @@ pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
                 "none came",
             ),
         }
-    })?;
-    at_least_one(is_tested, "no COB-ID allows remote frames (bit 30)")
+    })
 }
 
 /// With bit 30 of its COB-ID a TPDO does not respond to a remote frame.
@@ -272,280 +290,92 @@ pub(super) fn rtr_other_node(dut: &mut Dut<'_>) -> Checked {
 
 /// With event timer 0 the node sends a TPDO only because of events.
 pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
-    let pdo = timed(dut, 50)?;
-    dut.nmt(Command::Start)?;
-    if next(dut, &pdo, 500_000)?.is_none() {
-        return fail("a TPDO every 50 ms", "none came");
-    }
-    dut.write(pdo.address(5), &[0, 0])?;
-    dut.drain()?;
-    // A changed value is an event.
-    let mut last = None;
-    let until = dut.now().plus_micros(500_000);
-    while let Some(heard) = dut.receive(until)? {
-        if !pdo.carries(&heard.frame) {
-            continue;
-        }
-        let data = heard.frame.data().to_vec();
-        if last.replace(data.clone()) == Some(data) {
-            return fail(
-                "no TPDO by an event timer of 0",
-                format!("{} came again", heard.frame),
-            );
-        }
-    }
-    Ok(())
-}
-
-/// Every valid TPDO is sent with its CAN-ID and the length of its mapping.
-pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
-    learn_sync(dut)?;
-    let any = on_each(dut, is_sent)?;
-    at_least_one(any, "no TPDO is on")
-}
-
-/// A test of a TPDO with its number of bytes.
-type OnTpdo = fn(&mut Dut<'_>, &Tpdo, usize) -> Checked;
-
-/// Tests each valid TPDO; one without a mapping gets one for the test. Returns whether the test applies to any.
-fn on_each(dut: &mut Dut<'_>, test: OnTpdo) -> Checked<bool> {
-    let mut any = false;
-    for number in dut.eds.pdos(0x1800) {
-        let com = 0x1800 + number;
-        let cob_id = dut.number(com, 1)? as u32;
-        if !is_on(cob_id) {
-            continue;
-        }
-        let pdo = Tpdo { com, cob_id };
-        let all = mapping(dut, pdo.map())?;
-        if contradiction(dut.eds, &all, true).is_some() {
-            continue;
-        }
-        let done = if all.is_empty() {
-            let entries: Vec<_> = dut.eds.dictionary().entries().collect();
-            let fits = |entry: &&Entry| {
-                entry.maps_to_tpdo() && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
-            };
-            let Some(entry) = entries.iter().find(fits) else {
-                continue;
-            };
-            let (raw, bits) = (
-                super::mapping::raw(entry),
-                entry.data_type.bits().unwrap_or(8),
-            );
-            let mapped = |dut: &mut Dut<'_>, map| {
-                if dut
-                    .download(Address::new(map, 1), &raw.to_le_bytes())?
-                    .is_err()
-                {
-                    return Ok(());
-                }
-                dut.write(Address::new(map, 0), &[1])?;
-                dut.write(Address::new(com, 1), &cob_id.to_le_bytes())?;
-                test(dut, &pdo, usize::from(bits).div_ceil(8))
-            };
-            super::mapping::on(dut, pdo, mapped)
-        } else {
-            let bits: usize = all.iter().map(|mapped| mapped.bits).sum();
-            test(dut, &pdo, bits.div_ceil(8))
-        };
-        match done {
-            Err(End::NotApplicable(_)) => continue,
-            done => dut.fault(done)?,
-        }
-        any = true;
-    }
-    Ok(any)
-}
-
-/// Bit 31 of its COB-ID makes the TPDO not valid.
-fn is_silent_while_off(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
-    if !dut.eds.writes(pdo.com, 1) {
-        return Ok(());
-    }
-    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
-    dut.nmt(Command::Start)?;
-    let expected = format!(
-        "no TPDO{} while bit 31 of its COB-ID is set",
-        pdo.com - 0x17FF
-    );
-    let done = sync(dut).and_then(|()| none(dut, pdo, QUIET, &expected));
-    dut.nmt(Command::EnterPreOperational)?;
-    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    done
-}
-
-/// Waits for the TPDO, by SYNC or event timer, and checks its length.
-fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
-    dut.keep(pdo.address(2))?;
-    let is_synchronous = dut.download(pdo.address(2), &[1])?.is_ok();
-    if !is_synchronous {
-        if !dut.eds.writes(pdo.com, 5) {
-            return lacks("the TPDO is neither synchronous nor has it an event timer");
-        }
-        dut.set(pdo.address(5), &[50, 0])?;
-    }
-    dut.nmt(Command::Start)?;
-    dut.wait(20_000)?;
-    if is_synchronous {
-        sync(dut)?;
-    }
-    let heard = next(dut, pdo, 500_000)?;
-    dut.nmt(Command::EnterPreOperational)?;
-    let name = format!("TPDO{}, {:04X}h,", pdo.com - 0x17FF, pdo.com);
-    let Some(heard) = heard else {
-        let by = if is_synchronous {
-            "a SYNC"
-        } else {
-            "its event timer"
-        };
-        return fail(format!("{name} with {by}"), "none came");
-    };
-    ensure(
-        usize::from(heard.frame.dlc()) == len,
-        format!("{len} bytes in {name} as mapped"),
-        format!("{} came", heard.frame),
-    )?;
-    if is_synchronous {
-        is_sent_with_third(dut, pdo)?;
-        forbids_rtr(dut, pdo)?;
-    }
-    is_silent_while_off(dut, pdo)?;
-    keeps_times(dut, pdo)
-}
-
-/// With transmission type 3, two of six SYNC messages send this TPDO.
-fn is_sent_with_third(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
-    if dut.download(pdo.address(2), &[3])?.is_err() {
-        return Ok(());
-    }
-    starts_silent(dut, pdo)?;
-    let from = dut.frames.len();
-    for _ in 0..6 {
-        sync(dut)?;
-        dut.wait(20_000)?;
-    }
-    let sent = dut.frames.get(from..).unwrap_or_default().iter();
-    let sent = sent.filter(|one| !one.ours && pdo.carries(&one.frame));
-    let count = sent.count();
-    dut.nmt(Command::EnterPreOperational)?;
-    ensure(
-        count == 2,
-        format!(
-            "TPDO{} with two of six SYNC messages, by transmission type 3",
-            pdo.com - 0x17FF
-        ),
-        format!("{count} came"),
-    )
-}
-
-/// With bit 30 of its COB-ID this synchronous TPDO does not answer a remote frame.
-fn forbids_rtr(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
-    let before = pdo.cob_id;
-    if !CobId::new(before).allows_rtr() || !dut.eds.writes(pdo.com, 1) {
-        return Ok(());
-    }
-    let other = before | 1 << 30;
-    let mut is_taken = true;
-    for value in [before | 1 << 31, other | 1 << 31, other] {
-        let done = dut.download(pdo.address(1), &value.to_le_bytes())?;
-        is_taken = is_taken && done.is_ok();
-    }
-    let done = if is_taken {
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 50)?;
         dut.nmt(Command::Start)?;
-        dut.ask_for(pdo.id(), 8)?;
-        let number = pdo.com - 0x17FF;
-        let expected = format!("no TPDO{number} after a remote frame with bit 30 of its COB-ID");
-        none(dut, pdo, QUIET, &expected)
-    } else {
+        if next(dut, pdo, 500_000)?.is_none() {
+            return fail("a TPDO every 50 ms", "none came");
+        }
+        dut.write(pdo.address(5), &[0, 0])?;
+        dut.drain()?;
+        // A changed value is an event.
+        let mut last = None;
+        let until = dut.now().plus_micros(500_000);
+        while let Some(heard) = dut.receive(until)? {
+            if !pdo.carries(&heard.frame) {
+                continue;
+            }
+            let data = heard.frame.data().to_vec();
+            if last.replace(data.clone()) == Some(data) {
+                return fail(
+                    "no TPDO by an event timer of 0",
+                    format!("{} came again", heard.frame),
+                );
+            }
+        }
         Ok(())
-    };
-    dut.nmt(Command::EnterPreOperational)?;
-    for value in [before | 1 << 31, before] {
-        dut.write(pdo.address(1), &value.to_le_bytes())?;
-    }
-    done
-}
-
-/// The event timer and the inhibit time of this TPDO take effect.
-fn keeps_times(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
-    let number = pdo.com - 0x17FF;
-    let writes = |dut: &Dut<'_>, sub| dut.eds.writes(pdo.com, sub);
-    if !writes(dut, 5) || event_driven(dut, pdo).is_err() {
-        return Ok(());
-    }
-    dut.set(pdo.address(5), &[50, 0])?;
-    let done = gaps(
-        dut,
-        pdo,
-        2,
-        // A changed value is an event, so that it may be sent earlier.
-        |gap, slack| gap <= 55_000 + slack,
-        &format!("every 50 ms at least by the event timer of TPDO{number}"),
-    );
-    dut.nmt(Command::EnterPreOperational)?;
-    done?;
-    if !writes(dut, 3) || !writes(dut, 1) {
-        return Ok(());
-    }
-    let switch = |dut: &mut Dut<'_>, inhibit: &[u8]| {
-        dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
-        dut.write(pdo.address(3), inhibit)?;
-        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())
-    };
-    let before = dut.read(pdo.address(3))?;
-    switch(dut, &1000u16.to_le_bytes())?;
-    let done = gaps(
-        dut,
-        pdo,
-        2,
-        |gap, slack| gap + slack + 5_000 >= 100_000,
-        &format!("every 100 ms at most by the inhibit time of TPDO{number}"),
-    );
-    dut.nmt(Command::EnterPreOperational)?;
-    switch(dut, &before)?;
-    done
+    })
 }
 
 pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let pdo = timed(dut, 50)?;
-    dut.drain()?;
-    quiet(dut, &pdo, "Pre-operational")
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 50)?;
+        dut.drain()?;
+        quiet(dut, pdo, "Pre-operational")
+    })
 }
 
 pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let pdo = timed(dut, 50)?;
-    dut.nmt(Command::Start)?;
-    dut.wait(QUIET)?;
-    dut.nmt(Command::Stop)?;
-    dut.drain()?;
-    quiet(dut, &pdo, "Stopped")?;
-    dut.nmt(Command::Start)?;
-    match next(dut, &pdo, 500_000)? {
-        Some(_) => Ok(()),
-        None => fail("the TPDO again after another start", "none came"),
-    }
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 50)?;
+        for (command, state) in [
+            (Command::EnterPreOperational, "Pre-operational"),
+            (Command::Stop, "Stopped"),
+        ] {
+            dut.nmt(Command::Start)?;
+            dut.wait(QUIET)?;
+            dut.nmt(command)?;
+            dut.drain()?;
+            quiet(dut, pdo, state)?;
+            dut.nmt(Command::Start)?;
+            if next(dut, pdo, 500_000)?.is_none() {
+                return fail(
+                    format!("TPDO{} again after {state}", pdo.com - 0x17FF),
+                    "none came",
+                );
+            }
+        }
+        Ok(())
+    })
 }
 
 pub(super) fn sync_not_in_stopped(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let pdo = typed(dut, 1)?;
-    for (command, state) in [
-        (Command::EnterPreOperational, "Pre-operational"),
-        (Command::Stop, "Stopped"),
-    ] {
-        dut.nmt(command)?;
-        dut.drain()?;
-        quiet(dut, &pdo, state)?;
-    }
-    starts_silent(dut, &pdo)?;
-    sync(dut)?;
-    match next(dut, &pdo, QUIET)? {
-        Some(_) => Ok(()),
-        None => fail("the TPDO with SYNC again after another start", "none came"),
-    }
+    on_each(dut, |dut, pdo, _| {
+        typed_on(dut, pdo, 1)?;
+        for (command, state) in [
+            (Command::EnterPreOperational, "Pre-operational"),
+            (Command::Stop, "Stopped"),
+        ] {
+            dut.nmt(command)?;
+            dut.drain()?;
+            quiet(dut, pdo, state)?;
+        }
+        starts_silent(dut, pdo)?;
+        sync(dut)?;
+        match next(dut, pdo, QUIET)? {
+            Some(_) => Ok(()),
+            None => fail(
+                format!(
+                    "TPDO{} with SYNC again after another start",
+                    pdo.com - 0x17FF
+                ),
+                "none came",
+            ),
+        }
+    })
 }
 
 /// Fails if the TPDO is sent because of timer, SYNC or remote frame.
@@ -562,33 +392,45 @@ fn quiet(dut: &mut Dut<'_>, pdo: &Tpdo, state: &str) -> Checked {
 }
 
 pub(super) fn length(dut: &mut Dut<'_>) -> Checked {
-    let pdo = timed(dut, 50)?;
-    let bits: usize = mapping(dut, pdo.map())?
-        .iter()
-        .map(|mapped| mapped.bits)
-        .sum();
-    dut.nmt(Command::Start)?;
-    let Some(heard) = next(dut, &pdo, 500_000)? else {
-        return fail("a TPDO every 50 ms", "none came");
-    };
-    let wanted = bits.div_ceil(8);
-    ensure(
-        usize::from(heard.frame.dlc()) == wanted,
-        format!("a TPDO of {wanted} bytes, as mapped"),
-        format!("{} came", heard.frame),
-    )
+    on_each(dut, |dut, pdo, wanted| {
+        timed_on(dut, pdo, 50)?;
+        dut.nmt(Command::Start)?;
+        let Some(heard) = next(dut, pdo, 500_000)? else {
+            return fail("a TPDO every 50 ms", "none came");
+        };
+        ensure(
+            usize::from(heard.frame.dlc()) == wanted,
+            format!("a TPDO of {wanted} bytes, as mapped"),
+            format!("{} came", heard.frame),
+        )
+    })
 }
 
 /// A value that does not change is the same by SDO and in the TPDO.
 pub(super) fn content(dut: &mut Dut<'_>) -> Checked {
-    let pdo = timed(dut, 50)?;
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 50)?;
+        carries_values(dut, pdo)
+    })
+}
+
+/// A TPDO that is sent by its event timer has the values that SDO reads.
+pub(super) fn carries_values(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     let all = mapping(dut, pdo.map())?;
     dut.nmt(Command::Start)?;
+    // The start of the node may cause the first TPDO.
+    next(dut, pdo, 500_000)?;
     let before = read(dut, &all)?;
-    let Some(heard) = next(dut, &pdo, 500_000)? else {
+    let Some(heard) = next(dut, pdo, 500_000)? else {
         return fail("a TPDO every 50 ms", "none came");
     };
     let after = read(dut, &all)?;
+    let bits: usize = all.iter().map(|mapped| mapped.bits).sum();
+    ensure(
+        usize::from(heard.frame.dlc()) == bits.div_ceil(8),
+        format!("{} bytes, as mapped", bits.div_ceil(8)),
+        format!("{} came", heard.frame),
+    )?;
     let carried = number(heard.frame.data());
     let mut shift = 0;
     for (mapped, (before, after)) in all.iter().zip(before.iter().zip(&after)) {
@@ -610,6 +452,85 @@ pub(super) fn content(dut: &mut Dut<'_>) -> Checked {
         }
     }
     Ok(())
+}
+
+/// Each TPDO carries the objects of a mapping that is as long as possible.
+pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
+    let mut any = false;
+    // TPDOs that take an object twice, and those that do not.
+    let (mut taken, mut refused) = (0, Vec::new());
+    for number in dut.eds.pdos(0x1800) {
+        let com = 0x1800 + number;
+        let cob_id = dut.number(com, 1)? as u32;
+        let pdo = Tpdo { com, cob_id };
+        let all = mapping(dut, pdo.map())?;
+        if !is_on(cob_id) || contradiction(dut.eds, &all, true).is_some() {
+            continue;
+        }
+        let kept = dut.undo.len();
+        let done = timed_on(dut, &pdo, 50).and_then(|()| {
+            super::mapping::on(dut, pdo, |dut, map| {
+                match is_full(dut, &pdo, map)? {
+                    None => taken += 1,
+                    Some(why) => refused.push(why),
+                }
+                Ok(())
+            })
+        });
+        if matches!(done, Err(End::Lost(_))) {
+            return done;
+        }
+        dut.put_back_since(kept)?;
+        match done {
+            Err(End::NotApplicable(_)) => {}
+            done => {
+                dut.fault(done)?;
+                any = true;
+            }
+        }
+    }
+    for (address, code) in refused.into_iter().filter(|_| taken > 0) {
+        let expected = format!("{address} to take a mapping that another TPDO takes");
+        dut.fault(fail(expected, abort_text(code)))?;
+    }
+    at_least_one(any, "no TPDO is on whose mapping can be written")
+}
+
+/// Maps as many objects as there is room for. A node need not take one object twice: returns where it refuses this.
+fn is_full(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16) -> Checked<Option<(Address, u32)>> {
+    let count = Address::new(map, 0);
+    let [twice, once] = super::kept::fillings(dut, map);
+    let mut refused = None;
+    for entries in [twice, once] {
+        let before = refused;
+        refused = None;
+        let mut writes: Vec<(Address, Vec<u8>)> = Vec::new();
+        for (sub, entry) in (1..).zip(&entries) {
+            writes.push((Address::new(map, sub), entry.to_le_bytes().to_vec()));
+        }
+        writes.push((count, vec![entries.len() as u8]));
+        for (address, bytes) in writes {
+            if let Err(code) = dut.download(address, &bytes)? {
+                refused = Some((address, code));
+                break;
+            }
+        }
+        let Some((address, code)) = refused else {
+            dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+            let done = carries_values(dut, pdo);
+            if !matches!(done, Err(End::Lost(_))) {
+                dut.nmt(Command::EnterPreOperational)?;
+            }
+            return done.map(|()| before);
+        };
+        if before.is_some() {
+            return fail(
+                format!("{address} to take a mapping that the EDS allows"),
+                abort_text(code),
+            );
+        }
+    }
+    Ok(None)
 }
 
 fn read(dut: &mut Dut<'_>, all: &[Mapped]) -> Checked<Vec<Option<u64>>> {
@@ -644,16 +565,26 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A TPDO is sent with the CAN-ID of its COB-ID.
+/// Each TPDO is sent with the CAN-ID of its COB-ID.
 pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
-    let pdo = timed(dut, 50)?;
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 50)?;
+        moves(dut, pdo)
+    })
+}
+
+fn moves(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     if !dut.eds.writes(pdo.com, 1) {
         return lacks("the COB-ID cannot be written");
     }
-    let other = (pdo.cob_id & !0x3FFF_FFFF) | u32::from(FREE + 1);
-    dut.set(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
-    for value in [other | 1 << 31, other] {
+    let number = pdo.com - 0x17FF;
+    let id = FREE + 1;
+    let other = (pdo.cob_id & !0x3FFF_FFFF) | u32::from(id);
+    for value in [pdo.cob_id | 1 << 31, other | 1 << 31, other] {
         if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
+            for value in [pdo.cob_id | 1 << 31, pdo.cob_id] {
+                dut.write(pdo.address(1), &value.to_le_bytes())?;
+            }
             return lacks("the node does not take another COB-ID");
         }
     }
@@ -662,17 +593,23 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
         com: pdo.com,
         cob_id: other,
     };
-    let came = next(dut, &moved, 500_000)?;
-    ensure(
-        came.is_some(),
-        "the TPDO with the new CAN-ID 6A1h",
-        "none came",
-    )?;
-    none(dut, &pdo, QUIET, "no TPDO with the old CAN-ID")?;
-    // The PDO is not valid, so that the old COB-ID can be restored.
+    let done = match next(dut, &moved, 500_000)? {
+        Some(_) => none(
+            dut,
+            pdo,
+            QUIET,
+            &format!("no TPDO{number} with the old CAN-ID"),
+        ),
+        None => fail(
+            format!("TPDO{number} with the new CAN-ID {id:03X}h"),
+            "none came",
+        ),
+    };
     dut.nmt(Command::EnterPreOperational)?;
-    dut.write(pdo.address(1), &(other | 1 << 31).to_le_bytes())?;
-    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())
+    for value in [other | 1 << 31, pdo.cob_id | 1 << 31, pdo.cob_id] {
+        dut.write(pdo.address(1), &value.to_le_bytes())?;
+    }
+    done
 }
 
 pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
@@ -709,25 +646,26 @@ pub(super) fn start_value_fixed(dut: &mut Dut<'_>) -> Checked {
     fixed(dut, 6, "the SYNC start value cannot be written")
 }
 
-/// Fails if a sub-index of the communication parameter changes while the TPDO is valid.
+/// Fails if a sub-index of the communication parameter of a valid TPDO changes.
 fn fixed(dut: &mut Dut<'_>, sub: u8, without: &str) -> Checked {
-    let pdo = first(dut)?;
-    if !dut.eds.writes(pdo.com, sub) || !dut.eds.writes(pdo.com, 1) {
-        return lacks(without);
-    }
-    let address = pdo.address(sub);
-    let before = dut.read(address)?;
-    let mut other = before.clone();
-    if let Some(first) = other.first_mut() {
-        *first ^= 1;
-    }
-    let done = dut.cannot_change(address, &other, "as the TPDO is valid");
-    if matches!(done, Err(End::Fail { .. })) {
-        dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
-        dut.write(address, &before)?;
-        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    }
-    done
+    on_each(dut, |dut, pdo, _| {
+        if !dut.eds.writes(pdo.com, sub) || !dut.eds.writes(pdo.com, 1) {
+            return lacks(without);
+        }
+        let address = pdo.address(sub);
+        let before = dut.read(address)?;
+        let mut other = before.clone();
+        if let Some(first) = other.first_mut() {
+            *first ^= 1;
+        }
+        let done = dut.cannot_change(address, &other, "as the TPDO is valid");
+        if matches!(done, Err(End::Fail { .. })) {
+            dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+            dut.write(address, &before)?;
+            dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+        }
+        done
+    })
 }
 
 /// After reset communication the event timer is what sub-index 5 says then.

@@ -42,6 +42,14 @@ pub(super) struct Mapped {
     pub(super) bits: usize,
 }
 
+impl Mapped {
+    /// The mapping entry, as in 1A00h.
+    pub(super) fn raw(&self) -> u32 {
+        let Address { index, sub } = self.address;
+        u32::from(index) << 16 | u32::from(sub) << 8 | self.bits as u32
+    }
+}
+
 /// The mapping in the node; empty for a multiplexed PDO, whose sub-index 0 is FEh or FFh.
 pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
     let mut all = Vec::new();
@@ -115,15 +123,20 @@ pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
 /// The first TPDO, sent only by its event timer, at this interval in milliseconds.
 pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
     let pdo = first(dut)?;
+    timed_on(dut, &pdo, millis)?;
+    Ok(pdo)
+}
+
+/// As [`timed`], of this TPDO.
+pub(super) fn timed_on(dut: &mut Dut<'_>, pdo: &Tpdo, millis: u16) -> Checked {
     if !dut.eds.writes(pdo.com, 5) {
         return lacks(format!(
             "{:04X}h:05, the event timer, cannot be written",
             pdo.com
         ));
     }
-    event_driven(dut, &pdo)?;
-    dut.set(pdo.address(5), &millis.to_le_bytes())?;
-    Ok(pdo)
+    event_driven(dut, pdo)?;
+    dut.set(pdo.address(5), &millis.to_le_bytes())
 }
 
 /// Changes the transmission type to 254 or 255.
@@ -146,11 +159,31 @@ pub(super) fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
 /// The first TPDO with this transmission type, without an event timer.
 pub(super) fn typed(dut: &mut Dut<'_>, kind: u8) -> Checked<Tpdo> {
     let pdo = first(dut)?;
-    dut.keep(pdo.address(2))?;
-    if dut.download(pdo.address(2), &[kind])?.is_err() {
-        return lacks(format!("the TPDO does not take transmission type {kind}"));
-    }
+    typed_on(dut, &pdo, kind)?;
     Ok(pdo)
+}
+
+/// As [`typed`], of this TPDO.
+pub(super) fn typed_on(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8) -> Checked {
+    dut.keep(pdo.address(2))?;
+    match dut.download(pdo.address(2), &[kind])? {
+        Ok(()) => Ok(()),
+        Err(_) => lacks(format!("the TPDO does not take transmission type {kind}")),
+    }
+}
+
+/// Starts the node; a synchronous TPDO does not come with the start.
+pub(super) fn starts_silent(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let from = dut.frames.len();
+    dut.nmt(Command::Start)?;
+    let mut came = dut.frames.get(from..).unwrap_or_default().iter();
+    match came.find(|traced| !traced.ours && pdo.carries(&traced.frame)) {
+        Some(traced) => fail(
+            "no TPDO without SYNC",
+            format!("{} came with the start of the node", traced.frame),
+        ),
+        None => Ok(()),
+    }
 }
 
 pub(super) fn next(dut: &mut Dut<'_>, pdo: &Tpdo, micros: u64) -> Checked<Option<Heard>> {
@@ -204,25 +237,52 @@ pub(super) fn gaps(
     is_right: impl Fn(u64, u64) -> bool,
     shown: &str,
 ) -> Checked {
+    middle_gap(dut, pdo, count, |gap, _, slack| is_right(gap, slack), shown)
+}
+
+/// The gaps of a TPDO that its event timer sends, 10 % off at most. One with another value may come earlier.
+pub(super) fn timer_gaps(
+    dut: &mut Dut<'_>,
+    pdo: &Tpdo,
+    count: usize,
+    wanted: u64,
+    shown: &str,
+) -> Checked {
+    let is_right = |gap: u64, is_same: bool, slack: u64| {
+        let off = wanted / 10 + slack;
+        gap <= wanted + off && (!is_same || gap + off >= wanted)
+    };
+    middle_gap(dut, pdo, count, is_right, shown)
+}
+
+/// The gaps between TPDOs, and whether the second of both has the same bytes as the first; the median has to be right.
+fn middle_gap(
+    dut: &mut Dut<'_>,
+    pdo: &Tpdo,
+    count: usize,
+    is_right: impl Fn(u64, bool, u64) -> bool,
+    shown: &str,
+) -> Checked {
     dut.nmt(Command::Start)?;
-    let mut last = None;
+    let mut last: Option<Heard> = None;
     let mut all = Vec::new();
     // The start of the node may cause the first one.
     for turn in 0..=count + 1 {
         let Some(heard) = next(dut, pdo, 500_000)? else {
             return fail(format!("a TPDO {shown}"), "none came within 500 ms");
         };
-        let before = last.replace(heard.at);
+        let before = last.replace(heard);
         if turn > 1
             && let Some(before) = before
         {
-            all.push(heard.at.micros_since(before));
+            let is_same = heard.frame.data() == before.frame.data();
+            all.push((heard.at.micros_since(before.at), is_same));
         }
     }
     all.sort_unstable();
-    let middle = all[all.len() / 2];
+    let (middle, is_same) = all[all.len() / 2];
     ensure(
-        is_right(middle, dut.rig.slack()),
+        is_right(middle, is_same, dut.rig.slack()),
         format!("a TPDO {shown}"),
         format!("they came every {}.{:03} ms", middle / 1000, middle % 1000),
     )

@@ -1,0 +1,511 @@
+//! Every value that a save keeps, a restore and a reset put back: of communication, of each PDO, of the application
+//! and of the manufacturer.
+
+use od_model::{Address, Entry, Group, values};
+use od_wire::CobId;
+use od_wire::nmt::Command;
+
+use super::mapping::raw;
+use super::store::command;
+use super::transmit::{Mapped, contradiction, is_on, mapping};
+use crate::conform::dut::{Dut, FREE};
+use crate::conform::eds::is_number;
+use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::sdo::number;
+
+/// A value before a change, and after it.
+struct Change {
+    address: Address,
+    before: Vec<u8>,
+    other: Vec<u8>,
+}
+
+/// The parameters of a PDO that its COB-ID protects: they are written while the PDO is not valid.
+#[derive(Clone, PartialEq, Eq)]
+struct Pdo {
+    com: u16,
+    cob_id: u32,
+    /// Inhibit time and SYNC start value, sub-indices 3 and 6, if they can be written.
+    times: Vec<(Address, Vec<u8>)>,
+    /// The entries of the mapping, if it can be written.
+    entries: Option<Vec<u32>>,
+}
+
+impl Pdo {
+    /// Reads them; `None` if the COB-ID cannot be written, or the EDS does not allow the mapping.
+    fn read(dut: &mut Dut<'_>, com: u16) -> Checked<Option<Self>> {
+        let cob_id = dut.number(com, 1)? as u32;
+        // A restricted COB-ID of an invalid EDS could not be written back.
+        if !dut.eds.writes(com, 1) || CobId::new(cob_id).is_valid() && !is_on(cob_id) {
+            return Ok(None);
+        }
+        let mut times = Vec::new();
+        for sub in [3, 6] {
+            if dut.eds.writes(com, sub) && com >= 0x1800 {
+                let address = Address::new(com, sub);
+                times.push((address, dut.read(address)?));
+            }
+        }
+        let map = com + 0x200;
+        let all = mapping(dut, map)?;
+        if contradiction(dut.eds, &all, com >= 0x1800).is_some() {
+            return Ok(None);
+        }
+        let is_variable = dut.eds.writes(map, 0)
+            && dut.eds.writes(map, 1)
+            // A multiplexed PDO has FEh or FFh.
+            && dut.number(map, 0)? <= 64;
+        let entries = is_variable.then(|| all.iter().map(Mapped::raw).collect());
+        Ok(Some(Self {
+            com,
+            cob_id,
+            times,
+            entries,
+        }))
+    }
+
+    /// Another CAN-ID, other times and another mapping.
+    fn other(&self, number: u16, entries: Option<Vec<u32>>) -> Self {
+        let id = u32::from(FREE + 0x10 + number % 0x10);
+        let times = self.times.iter().map(|(address, bytes)| {
+            let mut other = bytes.clone();
+            other.iter_mut().for_each(|byte| *byte ^= 3);
+            (*address, other)
+        });
+        Self {
+            com: self.com,
+            cob_id: self.cob_id & !0x1FFF_FFFF | id,
+            times: times.collect(),
+            entries,
+        }
+    }
+
+    /// Writes all of them by the procedure of CiA 301. Returns whether the node accepts them.
+    fn write(&self, dut: &mut Dut<'_>) -> Checked<bool> {
+        let com = Address::new(self.com, 1);
+        let now = dut.number(self.com, 1)? as u32;
+        let mut writes = vec![(com, (now | 1 << 31).to_le_bytes().to_vec())];
+        if let Some(entries) = &self.entries {
+            let map = self.com + 0x200;
+            writes.push((Address::new(map, 0), vec![0]));
+            for (sub, entry) in (1..).zip(entries) {
+                writes.push((Address::new(map, sub), entry.to_le_bytes().to_vec()));
+            }
+            writes.push((Address::new(map, 0), vec![entries.len() as u8]));
+        }
+        writes.extend(self.times.iter().cloned());
+        let mut is_taken = true;
+        for (address, bytes) in writes {
+            is_taken = dut.download(address, &bytes)?.is_ok();
+            if !is_taken {
+                break;
+            }
+        }
+        for cob_id in [self.cob_id | 1 << 31, self.cob_id] {
+            is_taken &= dut.download(com, &cob_id.to_le_bytes())?.is_ok();
+        }
+        Ok(is_taken)
+    }
+
+    fn values(&self) -> Vec<(Address, Vec<u8>)> {
+        let mut all = vec![(
+            Address::new(self.com, 1),
+            self.cob_id.to_le_bytes().to_vec(),
+        )];
+        all.extend(self.times.iter().cloned());
+        if let Some(entries) = &self.entries {
+            let map = self.com + 0x200;
+            all.push((Address::new(map, 0), vec![entries.len() as u8]));
+            for (sub, entry) in (1..).zip(entries) {
+                all.push((Address::new(map, sub), entry.to_le_bytes().to_vec()));
+            }
+        }
+        all
+    }
+}
+
+/// Mappings for a PDO, with as many objects as there is room for; the first one may have an object twice.
+pub(super) fn fillings(dut: &Dut<'_>, map: u16) -> [Vec<u32>; 2] {
+    let transmits = map >= 0x1A00;
+    let entries = dut.eds.dictionary().entries();
+    let own = entries.filter(|entry| entry.address.index == map && entry.access.writable());
+    let room = own
+        .map(|entry| entry.address.sub)
+        .max()
+        .unwrap_or(0)
+        .min(64);
+    let may = |entry: &Entry| {
+        let is_its = if transmits {
+            entry.maps_to_tpdo()
+        } else {
+            entry.maps_to_rpdo()
+        };
+        is_its && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
+    };
+    let mut all: Vec<u32> = dut
+        .eds
+        .dictionary()
+        .entries()
+        .filter(may)
+        .map(|entry| raw(&entry))
+        .collect();
+    all.sort_by_key(|raw| raw & 0xFF);
+    let fit = |times: usize| {
+        let mut bits = 0;
+        let mut fitting = Vec::new();
+        for raw in all.iter().cycle().take(times * all.len()) {
+            if fitting.len() < usize::from(room) && bits + (raw & 0xFF) <= 64 {
+                bits += raw & 0xFF;
+                fitting.push(*raw);
+            }
+        }
+        fitting
+    };
+    [fit(64), fit(1)]
+}
+
+/// All changes of a case.
+struct Changes {
+    all: Vec<Change>,
+    /// Each PDO as it was.
+    pdos: Vec<Pdo>,
+}
+
+/// Another value, which the EDS allows: one that differs in each byte, or that differs by one.
+fn others(dut: &Dut<'_>, entry: &Entry, before: &[u8]) -> Vec<Vec<u8>> {
+    let address = entry.address;
+    let flip = |count: usize| {
+        let mut other = before.to_vec();
+        other.iter_mut().take(count).for_each(|byte| *byte ^= 1);
+        other
+    };
+    let all = match (address.index, address.sub, before) {
+        // Each entry monitors another node, which never sends.
+        (0x1016, sub, [_, _, _, flags]) => {
+            vec![vec![0x10, 0x27, 100u8.saturating_add(sub).min(127), *flags]]
+        }
+        (0x1400..=0x19FF, 2, [kind]) => vec![vec![if *kind == 1 { 255 } else { 1 }]],
+        // An object of a manufacturer may be a list of options.
+        (0x2000..=0x5FFF, ..) => vec![flip(1)],
+        _ => {
+            let literal = |literal: od_model::Literal| {
+                let value = literal.integer(dut.node.raw())?;
+                Some(value.to_le_bytes().get(..before.len())?.to_vec())
+            };
+            let limits = [literal(entry.low), literal(entry.high)];
+            let mut all = vec![flip(8), flip(1)];
+            all.extend(limits.into_iter().flatten());
+            all
+        }
+    };
+    let is_allowed =
+        |other: &Vec<u8>| other != before && dut.eds.excludes(address, other, dut.node).is_none();
+    all.into_iter().filter(is_allowed).collect()
+}
+
+/// COB-IDs, and the inhibit time of EMCY messages, which a case may change for a while.
+const SERVICES: [u16; 4] = [0x1005, 0x1012, 0x1014, 0x1015];
+
+impl Changes {
+    /// Changes every value for which `which` is true and which the node lets a master change.
+    fn make(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked<Self> {
+        let mut made = Self {
+            all: Vec::new(),
+            pdos: Vec::new(),
+        };
+        let done = made.change(dut, which);
+        if let Err(End::Fail { .. } | End::NotApplicable(_) | End::Skip(_)) = done {
+            made.undo(dut)?;
+        }
+        done.map(|()| made)
+    }
+
+    fn change(&mut self, dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
+        // 6202h turns outputs; 1019h and 1006h depend on each other, and have a case of their own.
+        let may_move = dut.may_move;
+        let is_free = |entry: &Entry| {
+            let index = entry.address.index;
+            !matches!(index, 0x1006 | 0x1019) && (may_move || !matches!(index, 0x6202 | 0x6242))
+        };
+        let mut entries = dut.eds.writable();
+        entries.retain(|entry| is_number(entry) && which(entry) && is_free(entry));
+        entries.sort_by_key(|entry| entry.address);
+        entries.dedup_by_key(|entry| entry.address);
+        // Read everything first: some objects are two views of one value.
+        let mut before = Vec::new();
+        for entry in &entries {
+            if let Ok(bytes) = dut.upload(entry.address)?
+                && !bytes.is_empty()
+            {
+                before.push((*entry, bytes));
+            }
+        }
+        for index in SERVICES {
+            if let Some(entry) = dut.eds.entry(index, 0).filter(|entry| which(entry)) {
+                self.service(dut, &entry)?;
+            }
+        }
+        for base in [0x1400, 0x1800] {
+            for pdo in dut.eds.pdos(base) {
+                let entry = dut.eds.entry(base + pdo, 1);
+                if entry.is_some_and(|entry| which(&entry)) {
+                    self.pdo(dut, base + pdo, pdo + (base - 0x1400) / 0x80)?;
+                }
+            }
+        }
+        for (entry, before) in before {
+            for other in others(dut, &entry, &before) {
+                if dut.download(entry.address, &other)?.is_ok() {
+                    self.add(entry.address, before, other);
+                    break;
+                }
+            }
+        }
+        // A later write may have changed an earlier value.
+        let mut is_there = Vec::new();
+        for change in &self.all {
+            is_there.push(dut.upload(change.address)?.as_ref() == Ok(&change.other));
+        }
+        let mut is_there = is_there.into_iter();
+        self.all.retain(|_| is_there.next() == Some(true));
+        if self.all.len() < 2 {
+            return lacks("fewer than two parameters can be changed");
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, address: Address, before: Vec<u8>, other: Vec<u8>) {
+        self.all.push(Change {
+            address,
+            before,
+            other,
+        });
+    }
+
+    /// Another CAN-ID of a service without bit 31, or another inhibit time.
+    fn service(&mut self, dut: &mut Dut<'_>, entry: &Entry) -> Checked {
+        let address = entry.address;
+        if !entry.access.writable() {
+            return Ok(());
+        }
+        let before = dut.read(address)?;
+        let other = match address.index {
+            0x1015 => vec![0x64, 0],
+            index => {
+                let id = u32::from(FREE) + 0x30 + u32::from(index & 0xF);
+                let raw = number(&before) as u32;
+                (raw & !0x1FFF_FFFF & !(1 << 30) | id)
+                    .to_le_bytes()
+                    .to_vec()
+            }
+        };
+        if address.index == 0x1014 {
+            let off = (number(&before) as u32 | 1 << 31).to_le_bytes();
+            let _ = dut.download(address, &off)?;
+        }
+        if dut.download(address, &other)?.is_ok() {
+            self.add(address, before, other);
+        } else {
+            let _ = dut.download(address, &before)?;
+        }
+        Ok(())
+    }
+
+    /// Another CAN-ID and another mapping of a PDO, or another CAN-ID only.
+    fn pdo(&mut self, dut: &mut Dut<'_>, com: u16, number: u16) -> Checked {
+        let Some(before) = Pdo::read(dut, com)? else {
+            return Ok(());
+        };
+        let [full, once] = fillings(dut, com + 0x200);
+        let tries = match &before.entries {
+            Some(_) => vec![Some(full), Some(once), None],
+            None => vec![None],
+        };
+        for entries in tries {
+            let other = before.other(number, entries);
+            if other.write(dut)? {
+                let was = before.values();
+                for (address, other) in other.values() {
+                    let was = was.iter().find(|(one, _)| *one == address);
+                    let was = match was {
+                        Some((_, bytes)) => bytes.clone(),
+                        None => vec![0; other.len()],
+                    };
+                    if was != other {
+                        self.add(address, was, other);
+                    }
+                }
+                self.pdos.push(before);
+                return Ok(());
+            }
+        }
+        before.write(dut).map(drop)
+    }
+
+    /// Writes every value from before.
+    fn undo(&self, dut: &mut Dut<'_>) -> Checked {
+        let of_pdo = |index: u16| (0x1400..0x1C00).contains(&index);
+        for change in self.all.iter().rev() {
+            let Address { index, sub } = change.address;
+            if index == 0x1014 {
+                let now = number(&dut.read(change.address)?) as u32;
+                let off = number(&change.before) as u32 | 1 << 31;
+                for value in [now | 1 << 31, off] {
+                    let _ = dut.download(change.address, &value.to_le_bytes())?;
+                }
+            }
+            if !of_pdo(index) || index & 0x200 == 0 && matches!(sub, 2 | 4 | 5) {
+                let done = dut.download(change.address, &change.before)?;
+                if let Err(code) = done {
+                    dut.notes.push(format!(
+                        "could not put back {}: {code:08X}h",
+                        change.address
+                    ));
+                }
+            }
+        }
+        for pdo in &self.pdos {
+            if !pdo.write(dut)? {
+                dut.notes
+                    .push(format!("could not put back the PDO {:04X}h", pdo.com));
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares each value with the one from before, or the changed one.
+    fn compare(
+        &self,
+        dut: &mut Dut<'_>,
+        wanted: impl Fn(&Dut<'_>, &Change) -> Option<Vec<u8>>,
+        when: &str,
+    ) -> Checked {
+        for change in &self.all {
+            let Some(wanted) = wanted(dut, change) else {
+                continue;
+            };
+            let is = dut.upload(change.address)?.unwrap_or_default();
+            let name = values::label(dut.eds.dictionary(), change.address);
+            let done = ensure(
+                is == wanted,
+                format!("{} in {name} {when}", values::hex(&wanted)),
+                format!("{} was read", values::hex(&is)),
+            );
+            dut.fault(done)?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns whether a save, a restore and a reset are about the value.
+fn is_saved(entry: &Entry) -> bool {
+    entry.group.covered_by(1)
+}
+
+/// Runs a test of changed values, and puts back the values and the position of an encoder, which depends on some of them.
+fn changed(
+    dut: &mut Dut<'_>,
+    which: impl Fn(&Entry) -> bool,
+    test: impl FnOnce(&mut Dut<'_>, &Changes) -> Checked,
+    saves: bool,
+) -> Checked {
+    let has_position = dut.eds.has(0x6004) && dut.eds.writes(0x6003, 0);
+    let place = if has_position {
+        Some(dut.read(Address::new(0x6004, 0))?)
+    } else {
+        None
+    };
+    let changes = Changes::make(dut, which)?;
+    let done = test(dut, &changes);
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    changes.undo(dut)?;
+    if let Some(place) = place
+        && dut.read(Address::new(0x6004, 0))? != place
+    {
+        let preset = Address::new(0x6003, 0);
+        if dut.eds.excludes(preset, &place, dut.node).is_none() {
+            let _ = dut.download(preset, &place)?;
+        }
+    }
+    if saves {
+        command(dut, 0x1010, 1, b"save")?;
+        dut.notes
+            .push(format!("saved {} values again", changes.all.len()));
+    }
+    done
+}
+
+/// Every value is there after a save and a reset.
+pub(super) fn saves_each(dut: &mut Dut<'_>) -> Checked {
+    if dut.number(0x1010, 1)? & 1 == 0 {
+        return lacks("the node does not save on command");
+    }
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        command(dut, 0x1010, 1, b"save")?;
+        // A node that keeps its values at a reset must have saved these.
+        changes.undo(dut)?;
+        dut.reset(Command::ResetNode)?;
+        let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
+        changes.compare(dut, other, "after the reset, as saved")
+    };
+    changed(dut, is_saved, test, true)
+}
+
+/// Every value has its default after a save, a restore and a reset.
+pub(super) fn restores_each(dut: &mut Dut<'_>) -> Checked {
+    if dut.number(0x1010, 1)? & 1 == 0 || dut.number(0x1011, 1)? & 1 == 0 {
+        return lacks("the node does not save and restore on command");
+    }
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        command(dut, 0x1010, 1, b"save")?;
+        command(dut, 0x1011, 1, b"load")?;
+        dut.reset(Command::ResetNode)?;
+        let default = |dut: &Dut<'_>, change: &Change| {
+            let entry = dut.eds.entry(change.address.index, change.address.sub)?;
+            dut.eds.default(&entry, dut.node)
+        };
+        changes.compare(dut, default, "after the reset, the default")
+    };
+    changed(dut, is_saved, test, true)
+}
+
+/// Returns whether the node saves some values itself (bit 1 of 1010h).
+fn saves_itself(dut: &mut Dut<'_>) -> Checked<bool> {
+    if !dut.eds.has(0x1010) {
+        return Ok(false);
+    }
+    let count = dut.number(0x1010, 0)?.min(127) as u8;
+    for sub in 1..=count {
+        let can = dut.upload(Address::new(0x1010, sub))?;
+        if can.is_ok_and(|bytes| number(&bytes) & 2 != 0) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Every value that was not saved is lost after the reset.
+fn forgets_each(dut: &mut Dut<'_>, command: Command, groups: &[Group]) -> Checked {
+    if saves_itself(dut)? {
+        return lacks("the node saves values itself");
+    }
+    let which = |entry: &Entry| groups.contains(&entry.group);
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        dut.reset(command)?;
+        let before = |_: &Dut<'_>, change: &Change| Some(change.before.clone());
+        changes.compare(dut, before, "after the reset, as before the change")
+    };
+    changed(dut, which, test, false)
+}
+
+pub(super) fn reset_communication(dut: &mut Dut<'_>) -> Checked {
+    forgets_each(dut, Command::ResetCommunication, &[Group::Communication])
+}
+
+pub(super) fn reset_node(dut: &mut Dut<'_>) -> Checked {
+    let groups = [Group::Communication, Group::Application];
+    forgets_each(dut, Command::ResetNode, &groups)
+}
