@@ -5,7 +5,8 @@ use od_wire::nmt::Command;
 use od_wire::{AbortCode, CanId, CobId, Frame, NodeId};
 
 use super::lss::renumber;
-use super::transmit::{learn_sync, timed};
+use super::tpdos::on_each;
+use super::transmit::{Tpdo, learn_sync, timed_on};
 use crate::bench::OnBench;
 use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks, skip};
@@ -261,10 +262,16 @@ pub(super) fn fixed(dut: &mut Dut<'_>) -> Checked {
     at_least_one(any, "no COB-ID that is valid can be written")
 }
 
-/// A TPDO with a CAN-ID of 29 bits is sent with it, or the node refuses bit 29.
+/// Each TPDO with a CAN-ID of 29 bits is sent with it, or the node refuses bit 29.
 pub(super) fn extended(dut: &mut Dut<'_>) -> Checked {
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 50)?;
+        is_extended(dut, pdo)
+    })
+}
+
+fn is_extended(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     const OTHER: u32 = 1 << 29 | 0x04F1_F1F1 & 0x1FFF_FFFF;
-    let pdo = timed(dut, 50)?;
     if !dut.eds.writes(pdo.com, 1) {
         return lacks("the COB-ID cannot be written");
     }

@@ -5,7 +5,7 @@ use od_wire::AbortCode::{ValueRange, ValueTooHigh};
 use od_wire::nmt::Command;
 
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
 use crate::conform::sdo::abort_text;
 
 const PRESET: Address = Address::new(0x6003, 0);
@@ -314,4 +314,33 @@ pub(super) fn range(dut: &mut Dut<'_>) -> Checked {
             format!("{is} was read"),
         )
     })
+}
+
+/// Speed and acceleration are 0 while the position stays the same.
+pub(super) fn at_rest(dut: &mut Dut<'_>) -> Checked {
+    const TURNS: u8 = 10;
+    let entries: Vec<_> = dut.eds.dictionary().entries().collect();
+    let is_rate = |address: Address| matches!(address.index, 0x6030 | 0x6040) && address.sub > 0;
+    let rates: Vec<Address> = entries
+        .iter()
+        .map(|entry| entry.address)
+        .filter(|address| is_rate(*address))
+        .collect();
+    let place = dut.number(0x6004, 0)?;
+    for _ in 0..TURNS {
+        dut.wait(100_000)?;
+        if dut.number(0x6004, 0)? != place {
+            return lacks("the shaft turns");
+        }
+    }
+    for address in &rates {
+        let is = dut.read(*address)?;
+        let done = ensure(
+            is.iter().all(|byte| *byte == 0),
+            format!("0 in {address} while the position stays {place}"),
+            format!("{} was read", values::hex(&is)),
+        );
+        dut.fault(done)?;
+    }
+    at_least_one(!rates.is_empty(), "the EDS has neither 6030h nor 6040h")
 }

@@ -10,7 +10,7 @@ use super::store::command;
 use super::transmit::{Mapped, contradiction, is_on, mapping};
 use crate::conform::dut::{Dut, FREE};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
 use crate::conform::sdo::number;
 
 /// A value before a change, and after it.
@@ -508,4 +508,66 @@ pub(super) fn reset_communication(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn reset_node(dut: &mut Dut<'_>) -> Checked {
     let groups = [Group::Communication, Group::Application];
     forgets_each(dut, Command::ResetNode, &groups)
+}
+
+/// A write of a sub-object changes no other sub-object of its object, and not the same one of the next objects.
+pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
+    let may_move = dut.may_move;
+    let mut entries = dut.eds.writable();
+    entries.retain(|entry| {
+        let index = entry.address.index;
+        is_number(entry)
+            && entry.group != Group::None
+            && !matches!(index, 0x1006 | 0x1019)
+            && (may_move || !matches!(index, 0x6202 | 0x6242))
+    });
+    entries.sort_by_key(|entry| entry.address);
+    entries.dedup_by_key(|entry| entry.address);
+    let addresses: Vec<Address> = entries.iter().map(|entry| entry.address).collect();
+    let mut any = false;
+    for entry in &entries {
+        let own = entry.address;
+        let is_near = |other: &&Address| {
+            let is_next = own.index.abs_diff(other.index) == 1 && own.sub == other.sub;
+            **other != own && (own.index == other.index || is_next)
+        };
+        let near: Vec<Address> = addresses.iter().filter(is_near).copied().collect();
+        let before = dut.upload(own)?.unwrap_or_default();
+        let first = read_all(dut, &near)?;
+        let second = read_all(dut, &near)?;
+        let mut is_written = false;
+        for other in others(dut, entry, &before) {
+            is_written = dut.download(own, &other)?.is_ok();
+            if is_written {
+                break;
+            }
+        }
+        if !is_written {
+            continue;
+        }
+        any = true;
+        let after = read_all(dut, &near)?;
+        if let Err(code) = dut.download(own, &before)? {
+            dut.notes
+                .push(format!("could not put back {own}: {code:08X}h"));
+        }
+        for (at, address) in near.iter().enumerate() {
+            // A value that differs between two readings changes without a write.
+            let done = ensure(
+                first[at] != second[at] || after[at] == first[at],
+                format!("{} in {address} still", values::hex(&first[at])),
+                format!(
+                    "{} was read after a write of {own}",
+                    values::hex(&after[at])
+                ),
+            );
+            dut.fault(done)?;
+        }
+    }
+    at_least_one(any, "no parameter can be changed")
+}
+
+fn read_all(dut: &mut Dut<'_>, all: &[Address]) -> Checked<Vec<Vec<u8>>> {
+    let read = |address: &Address| Ok(dut.upload(*address)?.unwrap_or_default());
+    all.iter().map(read).collect()
 }

@@ -195,7 +195,12 @@ pub(super) fn refuses_too_many(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
         let own = dut.eds.dictionary().entries();
         let own = own.filter(|entry| entry.address.index == map);
         let highest = own.map(|entry| entry.address.sub).max().unwrap_or(64);
-        for count in [highest.min(64) + 1, 65, 0x80, 0xFD] {
+        let mut counts = vec![highest.min(64) + 1, 65, 0x80, 0xFD];
+        // FEh makes a multiplexed PDO, which needs a list of objects.
+        if !(0x1FA0..=0x1FFF).any(|index| dut.eds.has(index)) {
+            counts.push(0xFE);
+        }
+        for count in counts {
             dut.refuses_value(Address::new(map, 0), &[count], &codes)?;
         }
         Ok(())

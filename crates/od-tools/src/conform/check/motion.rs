@@ -495,7 +495,9 @@ pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
                 format!("it changed by {way}"),
             )?;
         }
-        Ok(())
+        axis.recover(dut)?;
+        axis.choose(dut, 0x607E, 0)?;
+        axis.turns_sign(dut)
     })
 }
 
@@ -736,6 +738,24 @@ impl Axis {
             ),
             format!("it lasts {} ms with every value", quick / 1000),
         )
+    }
+
+    /// Bit 7 of 607Eh turns the sign of 6064h, of an axis at rest.
+    fn turns_sign(self, dut: &mut Dut<'_>) -> Checked {
+        dut.wait(200_000)?;
+        let (place, window) = (self.value(dut, 0x6064)?, self.window(dut, 0x6067)?);
+        if place.abs() <= 10 * window.max(1) || self.value(dut, 0x6064)? != place {
+            return Ok(());
+        }
+        match self.choose(dut, 0x607E, 0x80) {
+            // A drive need not have this bit.
+            Err(End::NotApplicable(_)) => return Ok(()),
+            done => done?,
+        }
+        dut.wait(50_000)?;
+        let is = self.value(dut, 0x6064)?;
+        self.choose(dut, 0x607E, 0)?;
+        self.is_at(0x6064, is, -place, window, "with 80h in 607Eh")
     }
 
     /// Begins a ramp.

@@ -234,6 +234,34 @@ fn ignores(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
     dut.nmt(Command::EnterPreOperational)
 }
 
+/// With bit 29 of its COB-ID an RPDO takes frames of 29 bits, or the node refuses bit 29.
+fn takes_extended(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
+    let number = pdo.com - 0x13FF;
+    let long = Tpdo {
+        com: pdo.com,
+        cob_id: 1 << 29 | 0x04F1_F1F1,
+    };
+    let changed = Changed::of(dut, entries)?;
+    let off = 1 << 31;
+    for value in [long.cob_id | off, long.cob_id] {
+        if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
+            return dut.write(pdo.address(1), &(pdo.cob_id | off).to_le_bytes());
+        }
+    }
+    changed.send(dut, &long)?;
+    let why = format!(", as RPDO{number} came with its CAN-ID of 29 bits");
+    let done = changed.holds(dut, true, &why);
+    if matches!(done, Err(End::Lost(_))) {
+        return done;
+    }
+    changed.reset(dut)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    for value in [long.cob_id | off, pdo.cob_id | off] {
+        dut.write(pdo.address(1), &value.to_le_bytes())?;
+    }
+    done
+}
+
 /// An RPDO with another CAN-ID takes frames with it, and not with the one from before.
 fn moves(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
     let number = pdo.com - 0x13FF;
@@ -304,7 +332,8 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
             lengths(dut, &pdo, &entries)?;
             waits(dut, &pdo, &entries)?;
             ignores(dut, &pdo, &entries)?;
-            moves(dut, &pdo, &entries)
+            moves(dut, &pdo, &entries)?;
+            takes_extended(dut, &pdo, &entries)
         });
         match done {
             Err(End::NotApplicable(_)) => {}
@@ -346,6 +375,44 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
         }
     }
     at_least_one(any, "no RPDO is on that can have two objects")
+}
+
+/// The first RPDOs after a reset write their objects, too.
+pub(super) fn after_reset(dut: &mut Dut<'_>) -> Checked {
+    let outputs = outputs(dut)?;
+    let mut any = false;
+    for command in [Command::ResetNode, Command::ResetCommunication] {
+        dut.reset(command)?;
+        for number in dut.eds.pdos(0x1400) {
+            let com = 0x1400 + number;
+            let cob_id = dut.number(com, 1)? as u32;
+            let all = mapping(dut, com + 0x200)?;
+            let is_output = |address| outputs.iter().any(|entry| entry.address == address);
+            let is_seen = !all.is_empty() && all.iter().all(|one| is_output(one.address));
+            if !is_on(cob_id) || !is_seen || !has_sound_mapping(dut, com)? {
+                continue;
+            }
+            let pdo = Tpdo { com, cob_id };
+            let kept = dut.undo.len();
+            dut.keep(pdo.address(2))?;
+            if dut.download(pdo.address(2), &[255])?.is_err() {
+                continue;
+            }
+            any = true;
+            let entries: Vec<u32> = all.iter().map(super::transmit::Mapped::raw).collect();
+            let changed = Changed::of(dut, &entries)?;
+            for _ in 0..2 {
+                changed.send(dut, &pdo)?;
+                let why = format!(", as RPDO{} has it after a reset", com - 0x13FF);
+                let done = changed.holds(dut, true, &why);
+                dut.fault(done)?;
+                changed.reset(dut)?;
+            }
+            dut.nmt(Command::EnterPreOperational)?;
+            dut.put_back_since(kept)?;
+        }
+    }
+    at_least_one(any, "no RPDO is on and writes values that can be read")
 }
 
 /// An RPDO with an event timer (sub-index 5) that does not come again in time causes EMCY 8250h; not before the first

@@ -454,6 +454,34 @@ pub(super) fn carries_values(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     Ok(())
 }
 
+/// The first TPDOs after a reset have the values that SDO reads, too.
+pub(super) fn after_reset(dut: &mut Dut<'_>) -> Checked {
+    for command in [Command::ResetNode, Command::ResetCommunication] {
+        dut.reset(command)?;
+        learn_sync(dut)?;
+        on_each(dut, |dut, pdo, _| {
+            timed_on(dut, pdo, 50)?;
+            let done = carries_values(dut, pdo);
+            dut.fault(done)?;
+            dut.nmt(Command::EnterPreOperational)?;
+            // A node need not have both kinds.
+            if dut.download(pdo.address(2), &[1])?.is_err() {
+                return Ok(());
+            }
+            dut.nmt(Command::Start)?;
+            sync(dut)?;
+            match next(dut, pdo, QUIET)? {
+                Some(_) => Ok(()),
+                None => fail(
+                    format!("TPDO{} with the first SYNC after a reset", pdo.com - 0x17FF),
+                    "none came",
+                ),
+            }
+        })?;
+    }
+    Ok(())
+}
+
 /// Each TPDO carries the objects of a mapping that is as long as possible.
 pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
     let mut any = false;
