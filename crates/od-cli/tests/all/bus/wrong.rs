@@ -10,8 +10,8 @@ use serde_json::Value;
 use super::fails;
 use crate::support::{file, odkit};
 
-/// An slcan adapter with node 5: 1000h is 402, a segment of 1017h has the wrong toggle bit, and the node has no other
-/// object. Serves one connection after the other.
+/// An slcan adapter with node 5: 1000h is 402, a segment of 1017h has the wrong toggle bit, A100h has no end, and
+/// the node has no other object. Serves one connection after the other.
 fn adapter() -> String {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("an address").port();
@@ -25,12 +25,19 @@ fn adapter() -> String {
 
 fn serve(mut client: TcpStream) {
     let (mut rest, mut bytes) = (String::new(), [0; 4096]);
+    let mut is_endless = false;
     while let Ok(count @ 1..) = client.read(&mut bytes) {
         rest.push_str(&String::from_utf8_lossy(&bytes[..count]));
         while let Some((line, others)) = rest.split_once('\r') {
             let mut said = String::from(if line.starts_with('t') { "z\r" } else { "\r" });
             let object = line.get(7..13).unwrap_or_default();
+            if line.starts_with("t605840") {
+                is_endless = object == "00A100";
+            }
             match (line.get(..7), object) {
+                (Some("t605840"), "00A100") => said += "t58584000A10000000000\r",
+                (Some("t605860"), _) if is_endless => said += "t58580061616161616161\r",
+                (Some("t605870"), _) if is_endless => said += "t58581061616161616161\r",
                 (Some("t605840"), "001000") => said += "t5858430010009201000 0\r",
                 (Some("t605840"), "171000") => said += "t58584117100002000000\r",
                 (Some("t605860"), _) => said += "t58581B01000000000000\r",
@@ -82,6 +89,20 @@ fn an_object_whose_transfer_fails_is_in_the_output_and_in_the_exit_code() {
     let diff = odkit(&["diff", &eds, "--node-id", "5", "--link", &link], "");
     assert_eq!(diff.code, 1, "{}", diff.err);
     assert!(diff.out.contains("toggle"), "{}", diff.out);
+}
+
+#[test]
+fn a_text_without_end_ends_at_its_limit() {
+    let link = adapter();
+    let get = ["get", "5", "1000h", "A100h", "--link", &link];
+    let text = odkit(&get, "");
+    assert_eq!(text.code, 1, "{}", text.err);
+    let lines: Vec<&str> = text.out.lines().collect();
+    assert!(
+        matches!(lines[..], [_, name] if name.contains("A100h") && name.contains("longer than 1048576 bytes")),
+        "{}",
+        text.out
+    );
 }
 
 #[test]
