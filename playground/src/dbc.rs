@@ -22,13 +22,13 @@ fn with<R>(file: &[u8], act: impl FnOnce(&Database) -> R) -> Result<R, JsError> 
     })
 }
 
-/// Reads a DBC file; returns the number of its messages.
+/// Reads a DBC file; returns the number of its messages, and of its signals that no classic frame can hold.
 ///
 /// # Errors
 /// The reason why it is not a DBC file, with the line.
 #[wasm_bindgen(js_name = readDbc)]
-pub fn read_dbc(file: &[u8]) -> Result<usize, JsError> {
-    with(file, Database::len)
+pub fn read_dbc(file: &[u8]) -> Result<Vec<usize>, JsError> {
+    with(file, |database| vec![database.len(), database.left_out()])
 }
 
 /// The message and the signals of each of these packed frames in words; empty for a frame that the DBC file does not

@@ -51,8 +51,13 @@ test('the lab of the line opens from the list of lessons, and a line that is too
     await page.setViewportSize({ width, height });
     for (const part of [lab.getByRole('list', { name: 'Error counters' }), page.locator('od-raw-frame'), page.getByRole('button', { name: 'NMT Start' })]) await becomes(`in sight at ${width}`, () => seen(part), true);
   }
+  // A reload of the page opens the lab again, until it is closed.
+  await page.reload();
+  await lab.waitFor();
+  assert.match(page.url(), /#device=gxmm&node=1&lab=line$/);
   await page.getByRole('button', { name: 'Close Line' }).click();
   assert.equal(await page.locator('od-lab').count(), 0);
+  assert.match(page.url(), /#device=gxmm&node=1$/);
   assert.deepEqual(faults, [], 'the page complained');
   await close();
 });

@@ -51,6 +51,19 @@ const on = (name, body, options) =>
     }
   });
 
+on('a list of adapters that is closed without a choice says what to check', async (page) => {
+  await booted(page);
+  await page.evaluate(() => {
+    const requestPort = async () => {
+      throw new DOMException('No port selected by the user.', 'NotFoundError');
+    };
+    Object.defineProperty(navigator.serial, 'requestPort', { value: requestPort });
+  });
+  await page.getByRole('button', { name: 'Connect to a real bus' }).click();
+  await dialog(page).getByRole('button', { name: 'Choose adapter' }).click();
+  await becomes('the note', () => problem(page), /^No adapter was chosen\. .*as a serial port/);
+});
+
 on('a bus over WebSocket is shown, marked in red, and nothing is sent before somebody says so', async (page) => {
   const { found } = await sim(['gxmm', '--node-id', '5']);
   await booted(page);

@@ -295,6 +295,10 @@ check('a DBC file adds its signals to the words of frames, until it is closed', 
   await page.getByRole('searchbox', { name: 'Filter' }).fill('torque');
   await becomes('the rows', async () => (await rows(page)).length, 1);
   await page.getByRole('searchbox', { name: 'Filter' }).fill('');
+  // Two signals that no frame of 8 bytes can hold are counted.
+  await open('long.dbc', dbc.replace(' SG_ Speed', ' SG_ Long : 0|99@1+ (1,0) [0|0] "" A\n SG_ Late : 60|8@1+ (1,0) [0|0] "" A\n SG_ Speed'));
+  await page.getByText('Not shown, as no frame of 8 bytes can hold them: 2 signals.').waitFor();
+  await open('motion.dbc', dbc);
   await open('wrong.dbc', 'VERSION ""\nBO_ x\n');
   await page.getByText('wrong.dbc cannot be read: line 2: `BO_ x` is not a line of a DBC file.').waitFor();
   await page.getByRole('button', { name: 'Close motion.dbc' }).click();

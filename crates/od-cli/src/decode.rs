@@ -132,5 +132,13 @@ pub(crate) fn read_log(path: &Path) -> Result<Log, Failure> {
 fn database(path: &Path) -> Result<Database, Failure> {
     let failed = |why: String| Failure::Failed(format!("{}: {why}", path.display()));
     let bytes = crate::files::read(path).map_err(|error| failed(read_error(&error)))?;
-    Database::read(&bytes).map_err(|why| failed(why.to_string()))
+    let database = Database::read(&bytes).map_err(|why| failed(why.to_string()))?;
+    if database.left_out() > 0 {
+        let signals = plural_of(database.left_out(), "signal", "signals");
+        note!(
+            "{}: not shown, as no frame of 8 bytes can hold them: {signals}",
+            path.display()
+        );
+    }
+    Ok(database)
 }

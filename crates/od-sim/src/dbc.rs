@@ -31,6 +31,7 @@ const MOST_DIGITS: usize = 9;
 pub struct Database {
     /// By CAN-ID, and whether it has 29 bits.
     messages: BTreeMap<(u32, bool), Message>,
+    left_out: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -108,6 +109,7 @@ impl Database {
 
     fn of(dbc: &Dbc) -> Self {
         let mut messages = BTreeMap::new();
+        let mut left_out = 0;
         for message in dbc.messages.iter().filter(|one| one.name != NO_FRAME) {
             let main = message
                 .signals
@@ -115,8 +117,8 @@ impl Database {
                 .find(|one| one.multiplexer_indicator == MultiplexIndicator::Multiplexor);
             let main = main.map(|signal| signal.name.as_str());
             let signals = message.signals.iter().map(|one| signal(one, main));
-            let signals = signals.filter(|one| (1..=64).contains(&one.size));
-            let signals = signals.collect();
+            let signals: Vec<Signal> = signals.filter(Signal::fits).collect();
+            left_out += message.signals.len() - signals.len();
             let name = message.name.clone();
             messages.insert(key(message.id), Message { name, signals });
         }
@@ -168,7 +170,7 @@ impl Database {
                 signal.within = Some(within.clone());
             });
         }
-        Self { messages }
+        Self { messages, left_out }
     }
 
     /// Number of messages.
@@ -179,6 +181,11 @@ impl Database {
     /// Returns whether it has no message.
     pub fn is_empty(&self) -> bool {
         self.messages.is_empty()
+    }
+
+    /// Number of signals that no classic frame can hold: they have no bit, more than 64 bits, or end after byte 8.
+    pub fn left_out(&self) -> usize {
+        self.left_out
     }
 
     /// The name of the message of a frame.
@@ -251,6 +258,11 @@ impl Message {
 }
 
 impl Signal {
+    /// Returns whether a frame of eight bytes can hold the signal.
+    fn fits(&self) -> bool {
+        (1..=64).contains(&self.size) && self.raw(&[0; 8]).is_some()
+    }
+
     /// The bits of the signal; `None` if the frame is too short.
     fn raw(&self, data: &[u8]) -> Option<u64> {
         let bit = |place: usize| Some(u64::from(data.get(place / 8)? >> (place % 8) & 1));
@@ -480,6 +492,8 @@ mod tests {
         let database = Database::read(text.as_bytes()).expect("a DBC file");
         let frame = Frame::standard(1, &[0xFF; 8]);
         assert_eq!(database.words(&frame).as_deref(), Some("M: All -1"));
+        // Far, Up, Big and None; Self has bits, but chooses itself.
+        assert_eq!(database.left_out(), 4);
         // Any file either has messages or says why not.
         let mut mixed = TEXT.as_bytes().to_vec();
         for at in 0..mixed.len() {

@@ -146,8 +146,8 @@ export function removeDevice(node: number): void {
 
 export const MOST_NODES = 4;
 
-/** The address that opens these devices again: `#device=gxmm&node=1&device=gxam&node=2`. */
-function remember(): void {
+/** The address that opens these devices again, and the lab: `#device=gxmm&node=1&device=gxam&node=2&lab=line`. */
+export function remember(): void {
   if (state.real.value) return;
   const parts = new URLSearchParams();
   for (const { source, nodeId, name } of state.devices.value) {
@@ -156,6 +156,7 @@ function remember(): void {
     parts.append('device', source.name);
     parts.append('node', String(nodeId));
   }
+  if (state.lab.value) parts.set('lab', state.lab.value);
   history.replaceState(null, '', parts.size ? `#${parts}` : location.pathname + location.search);
 }
 

@@ -50,6 +50,8 @@ async function open(): Promise<void> {
   }
   // A connected real bus stays connected.
   if (!state.real.value) await begin(recall());
+  const lab = asked.get('lab');
+  if (lab && !state.real.value) await (await import('./labs/open')).openLab(lab);
 }
 
 /** Decodes an address; one with an invalid encoding is used as it is. */

@@ -2,6 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
+import { remember } from '../actions';
 import { sheet } from '../sheet';
 import * as state from '../state';
 import { besideSwitch } from '../views/beside';
@@ -15,6 +16,12 @@ await sheet('lesson');
 const close = (): void => {
   state.lab.value = null;
   if (state.tab.value === 'lesson' && !state.lesson.value) state.tab.value = 'encoder';
+};
+
+/** Closes the lab; a reload of the page does not open it again. */
+const leave = (): void => {
+  close();
+  if (!state.lesson.value) remember();
 };
 
 class LabPanel extends View {
@@ -41,7 +48,7 @@ class LabPanel extends View {
     return html`<header class="panel-head">
         <h2>${title}</h2>
         ${besideSwitch()}
-        <button class="icon-button" aria-label=${L.close(title)} title=${L.close(title)} @click=${close}>${icons.close}</button>
+        <button class="icon-button" aria-label=${L.close(title)} title=${L.close(title)} @click=${leave}>${icons.close}</button>
       </header>
       <div class="free-lab scroll" tabindex="0" role="region" aria-label=${title}>${shown(name)}</div>`;
   }

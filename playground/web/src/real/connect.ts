@@ -188,9 +188,8 @@ export async function connectAdapter(rate: number, speed: number, along: boolean
     baud = speed;
     await openPort();
   } catch (error) {
-    // The user closed the list of ports.
-    if (error instanceof DOMException && error.name === 'NotFoundError') return false;
-    problem.value = R.bad.port(error instanceof Error ? error.message : String(error));
+    const isClosed = error instanceof DOMException && error.name === 'NotFoundError';
+    problem.value = isClosed ? R.notChosen : R.bad.port(error instanceof Error ? error.message : String(error));
     return false;
   }
   const isOpen = await connect({ kind: 'serial', rate: rate || null, name: R.serial }, along);

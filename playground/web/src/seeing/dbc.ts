@@ -20,12 +20,13 @@ export async function opened(name: string, bytes: Uint8Array): Promise<boolean> 
     state.toast.value = { text: S.dbc.wrong(name, read.error), tone: 'error' };
     return false;
   }
-  file.value = { name, messages: read.value };
+  const [messages = 0, leftOut = 0] = read.value;
+  file.value = { name, messages };
   addSignals(async (frames) => {
     const words = await use('dbcWords', bytes, frames);
     return 'value' in words ? words.value : [];
   });
-  state.toast.value = { text: S.dbc.opened(name, read.value), tone: 'info' };
+  state.toast.value = { text: S.dbc.opened(name, messages, leftOut), tone: 'info' };
   return true;
 }
 

@@ -18,6 +18,7 @@ export const real = {
   cancel: 'Cancel',
   serial: 'CAN adapter that speaks slcan',
   serialHint: 'The page opens the serial port of the adapter (Web Serial).',
+  notChosen: 'No adapter was chosen. If the browser does not list yours, plug it in again and check that the computer shows it as a serial port; on Linux your user needs access to the port (often the group dialout).',
   noSerial: 'This browser does not support Web Serial; Chrome and Edge do. Every browser can connect to odkit.',
   rate: 'Bit rate of the bus',
   keepRate: 'as set in the adapter',

@@ -4,7 +4,8 @@ const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
 
 export const seeing = {
   dbc: {
-    opened: (name: string, messages: number) => `${name}: the signals of ${messages} message${messages === 1 ? '' : 's'} follow the words of their frames.`,
+    opened: (name: string, messages: number, leftOut: number) =>
+      `${name}: the signals of ${messages} message${messages === 1 ? '' : 's'} follow the words of their frames.${leftOut ? ` Not shown, as no frame of 8 bytes can hold them: ${leftOut} signal${leftOut === 1 ? '' : 's'}.` : ''}`,
     wrong: (name: string, why: string) => `${name} cannot be read: ${why}.`,
     title: (messages: number) => `DBC file with ${messages} message${messages === 1 ? '' : 's'}`,
     close: (name: string) => `Close ${name}`,

@@ -19,6 +19,7 @@ export const real = {
   cancel: 'Abbrechen',
   serial: 'CAN-Adapter mit slcan',
   serialHint: 'Die Seite öffnet den seriellen Port des Adapters (Web Serial).',
+  notChosen: 'Es wurde kein Adapter gewählt. Wenn der Browser deinen nicht nennt, steck ihn neu ein und prüfe, ob der Rechner ihn als seriellen Port zeigt; unter Linux braucht dein Benutzer Zugriff auf den Port (oft die Gruppe dialout).',
   noSerial: 'Dieser Browser unterstützt Web Serial nicht; Chrome und Edge tun es. Mit odkit kann sich jeder Browser verbinden.',
   rate: 'Bitrate des Busses',
   keepRate: 'wie im Adapter eingestellt',

@@ -7,7 +7,8 @@ const frames = (count: number): string => `${count} Frame${count === 1 ? '' : 's
 
 export const seeing = {
   dbc: {
-    opened: (name, messages) => `${name}: Die Signale von ${messages} ${messages === 1 ? 'Botschaft' : 'Botschaften'} stehen hinter den Worten ihrer Frames.`,
+    opened: (name, messages, leftOut) =>
+      `${name}: Die Signale von ${messages} ${messages === 1 ? 'Botschaft' : 'Botschaften'} stehen hinter den Worten ihrer Frames.${leftOut ? ` Nicht gezeigt, weil kein Frame mit 8 Bytes sie enthalten kann: ${leftOut} ${leftOut === 1 ? 'Signal' : 'Signale'}.` : ''}`,
     wrong: (name, why) => `${name} ist nicht lesbar: ${why}.`,
     title: (messages) => `DBC-Datei mit ${messages} ${messages === 1 ? 'Botschaft' : 'Botschaften'}`,
     close: (name) => `${name} schließen`,
