@@ -1,9 +1,11 @@
 //! A project of dcfgen (dcf-tools) in YAML, also in the form of ros2_canopen, whose nodes are below `nodes` and
 //! share `defaults`.
 
+use std::collections::BTreeSet;
+
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
-    configure, consume_heartbeats, misspelled_key, not_mappable,
+    configure, consume_heartbeats, misspelled_key, not_mappable, unusual_bit_rate,
 };
 use od_eds::{Finding, Span};
 use od_model::Address;
@@ -64,6 +66,35 @@ const KEYS: &[&str] = &[
     "restore_configuration",
     "sdo",
 ];
+
+/// The keys of a master that dcfgen knows.
+const MASTER_KEYS: &[&str] = &[
+    "node_id",
+    "baudrate",
+    "vendor_id",
+    "product_code",
+    "revision_number",
+    "serial_number",
+    "sync_period",
+    "sync_window",
+    "sync_overflow",
+    "time_cob_id",
+    "emcy_inhibit_time",
+    "heartbeat_multiplier",
+    "heartbeat_consumer",
+    "heartbeat_producer",
+    "error_behavior",
+    "nmt_inhibit_time",
+    "start",
+    "start_nodes",
+    "start_all_nodes",
+    "reset_all_nodes",
+    "stop_all_nodes",
+    "boot_time",
+];
+
+/// The keys of `options` that dcfgen knows.
+const OPTION_KEYS: &[&str] = &["dcf_path", "heartbeat_multiplier", "retry_factor"];
 
 /// The keys of a PDO that dcfgen knows.
 const PDO_KEYS: &[&str] = &[
@@ -177,6 +208,15 @@ impl<'a> Section<'a> {
         number.map(Some).ok_or_else(|| self.wrong(key))
     }
 
+    /// The node ID.
+    fn node_id(&self) -> Result<Option<u8>, String> {
+        let given = self.number("node_id")?;
+        match given {
+            None | Some(1..=127) => Ok(given),
+            Some(_) => Err(format!("{}: write 1 to 127", self.wrong("node_id"))),
+        }
+    }
+
     fn real(&self, key: &str) -> Result<Option<f64>, String> {
         let Some(value) = self.yaml.get(key) else {
             return Ok(None);
@@ -254,20 +294,22 @@ impl<'a> Section<'a> {
         pdos.collect()
     }
 
-    /// The findings about misspelled keys. Drivers of ros2_canopen have keys of their own.
-    fn misspelled(&self) -> Vec<Finding> {
-        let unknown = |yaml: &Yaml, known: &'static [&'static str]| -> Vec<Finding> {
-            let keys = yaml.entries().iter();
-            keys.filter_map(|(key, _)| misspelled_key(self.name, &key.text(), known, key.span))
-                .collect()
-        };
-        let mut findings = unknown(self.yaml, KEYS);
+    /// The findings about keys of `yaml` that look like one of these. Drivers of ros2_canopen have keys of their own.
+    fn misspelled(&self, yaml: &Yaml, known: &[&str]) -> Vec<Finding> {
+        let keys = yaml.entries().iter();
+        keys.filter_map(|(key, _)| misspelled_key(self.name, &key.text(), known, key.span))
+            .collect()
+    }
+
+    /// The findings about misspelled keys of a slave.
+    fn misspelled_of_slave(&self) -> Vec<Finding> {
+        let mut findings = self.misspelled(self.yaml, KEYS);
         for (_, pdo) in ["rpdo", "tpdo"]
             .iter()
             .filter_map(|key| self.yaml.get(key))
             .flat_map(Yaml::entries)
         {
-            findings.extend(unknown(pdo, PDO_KEYS));
+            findings.extend(self.misspelled(pdo, PDO_KEYS));
         }
         findings
     }
@@ -333,7 +375,11 @@ impl<'a> Section<'a> {
             .filter(|(is_set, _)| *is_set)
             .map(|(_, bit)| bit);
         Ok(Master {
-            node_id: self.number("node_id")?.unwrap_or(default.node_id),
+            node_id: match self.number("node_id")? {
+                // dcfgen's number of a master without a node ID.
+                Some(255) => 255,
+                _ => self.node_id()?.unwrap_or(default.node_id),
+            },
             bit_rate: number("baudrate", default.bit_rate)?,
             identity,
             sync_period: number("sync_period", 0)?,
@@ -392,12 +438,14 @@ pub(super) fn read(
 ) -> Result<Network, String> {
     let whole = Yaml::read(text)?;
     let mut settings = ProjectSettings::default();
+    let mut findings = Vec::new();
     if let Some(yaml) = whole.get("options") {
         let own = Section {
             name: "options",
             line: yaml.span.line,
             yaml,
         };
+        findings.extend(own.misspelled(yaml, OPTION_KEYS));
         settings.dcf_path = own.text("dcf_path").unwrap_or_default();
         settings.heartbeat_multiplier = own.real("heartbeat_multiplier")?.unwrap_or(3.0);
         settings.retry_factor = own.number("retry_factor")?.unwrap_or(3);
@@ -411,9 +459,15 @@ pub(super) fn read(
         yaml: master,
     };
     let master_places = (master.span, own.places());
+    findings.extend(own.misspelled(master, MASTER_KEYS));
+    if let Some(rate) = master.get("baudrate") {
+        let number = own.number("baudrate")?.unwrap_or_default();
+        findings.extend(unusual_bit_rate(number, rate.span));
+    }
     let master = own.master(&settings)?;
     let mut nodes = Vec::new();
-    let mut findings = Vec::new();
+    // Where the misspelled keys are that are reported.
+    let mut seen = BTreeSet::new();
     for (key, yaml) in slaves(&whole) {
         let name = key.text();
         let section = Section {
@@ -421,18 +475,18 @@ pub(super) fn read(
             line: key.span.line,
             yaml: &yaml,
         };
-        findings.extend(section.misspelled());
+        // The keys of `defaults` and of an alias are those of several nodes.
+        let misspelled = section.misspelled_of_slave().into_iter();
+        let is_new = |own: &Finding| own.span().is_none_or(|span| seen.insert(span.start));
+        findings.extend(misspelled.filter(is_new));
         let line = section.line_of("dcf");
         let path = section
             .text("dcf")
             .ok_or_else(|| format!("line {line}: {name}: the key `dcf` is missing"))?;
         let description =
             load(&path).map_err(|why| format!("line {line}: {name}: {path}: {why}"))?;
-        let given = section.number("node_id")?;
-        if given.is_some_and(|id| !(1..=127).contains(&id)) {
-            return Err(format!("{}: write 1 to 127", section.wrong("node_id")));
-        }
-        let id = given
+        let id = section
+            .node_id()?
             .or(description.commissioned_node_id())
             .filter(|id| (1..=127).contains(id));
         let Some(id) = id else {

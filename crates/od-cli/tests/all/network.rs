@@ -206,6 +206,47 @@ fn contradictions_between_nodes_are_reported() {
     );
 }
 
+/// Each text of a project is reported once, at its line: the keys of `defaults` are those of two nodes.
+#[test]
+fn settings_of_a_master_and_of_several_nodes_are_checked() {
+    let eds = repository("devices/eds/GXMM.eds");
+    let text = format!(
+        "options:\n  retry_facto: 2\nmaster:\n  node_id: 1\n  baudrate: 300\n  heartbeat_produce: 500\n\
+         defaults:\n  dcf: {eds}\n  hartbeat_producer: 100\n\
+         nodes:\n  left:\n    node_id: 5\n    tpdo:\n      2: {{cob_id: 0x5F0, transmission: 255}}\n\
+         \n  right:\n    node_id: 6\n"
+    );
+    let (run, _) = network("settings", "bus.yml", &text);
+    assert_eq!(run.code, 1, "{}", run.err);
+    for (line, said) in [
+        (2, "W1208]: options: `retry_facto` is not a key of dcfgen"),
+        (5, "W1211]: the bit rate is 300 kbit/s"),
+        (
+            6,
+            "W1208]: master: `heartbeat_produce` is not a key of dcfgen",
+        ),
+        (
+            9,
+            "W1208]: left: `hartbeat_producer` is not a key of dcfgen",
+        ),
+        (
+            14,
+            "E1210]: TPDO 2 of left has CAN-ID 5F0h, which CiA 301 reserves for the default SDO (server to client)",
+        ),
+    ] {
+        let found = run
+            .err
+            .find(said)
+            .unwrap_or_else(|| panic!("{said}\n{}", run.err));
+        let place = run.err[found..].lines().nth(1).unwrap_or_default();
+        assert!(place.contains(&format!("bus.yml:{line}:")), "{}", run.err);
+    }
+    assert_eq!(run.err.matches("[W1208]").count(), 3, "{}", run.err);
+    let (run, _) = network("master-id", "bus.yml", "master:\n  node_id: 128\n");
+    let said = "line 2: master: node_id is not valid: write 1 to 127";
+    assert!(run.err.contains(said), "{}", run.err);
+}
+
 /// A SYNC producer with the period 0 sends no SYNC (CiA 301, object 1006h).
 #[test]
 fn a_synchronous_pdo_needs_a_period_of_sync() {
@@ -399,14 +440,15 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
     }
     assert_eq!(run.err.matches("[W1207]").count(), 5, "{}", run.err);
     let text = "[Topology]\nNodes=2\nNode4Present=1\nNode4Name=Left\nNode4DCFName=n4.dcf\nNode5Present=1\nNode5Name=Left\n\
-        Node5DCFName=n5.dcf\nNode5DCFNam=Right\n[Topology]\nNodse=0\nNode6Refd=1\n";
+        Node5DCFName=n5.dcf\nNode4Name=Right\nNode5DCFNam=Right\n[Topology]\nNodse=0\nNode6Refd=1\n";
     fs::write(&list, text).expect("a file");
     let run = odkit(&["network", &paths[0]], "");
     for (line, message) in [
         (7, "node 5 has the name `Left`, as node 4 has"),
-        (9, "`Node5DCFNam` is not a key of a node list"),
-        (10, "duplicate section [Topology]"),
-        (11, "`Nodse` is not a key of a node list"),
+        (9, "duplicate key `Node4Name`; odkit uses the first"),
+        (10, "`Node5DCFNam` is not a key of a node list"),
+        (11, "duplicate section [Topology]"),
+        (12, "`Nodse` is not a key of a node list"),
     ] {
         let found = run
             .err
@@ -415,11 +457,19 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
         let place = run.err[found..].lines().nth(1).unwrap_or_default();
         assert!(place.contains(&format!("nodelist.cpj:{line}:")), "{place}");
     }
-    assert_eq!(run.err.matches("[W1207]").count(), 4, "{}", run.err);
+    assert_eq!(run.err.matches("[W1207]").count(), 5, "{}", run.err);
     for (text, message) in [
         (
             "[Topology]\nNode3Present=1\n",
             "line 2: Node3DCFName is missing",
+        ),
+        (
+            "[Topology]\nNode3Present=1\nNode3DCFNam=n4.dcf\n",
+            "line 3: `Node3DCFNam` is not a name of a node list; write `Node3DCFName`",
+        ),
+        (
+            "\n[Topolgy]\nNodes=0\n",
+            "line 2: `Topolgy` is not a name of a node list; write `Topology`",
         ),
         (
             "[Topology]\nNode3DCFName=none.dcf\n",

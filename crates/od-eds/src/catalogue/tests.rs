@@ -216,6 +216,7 @@ fn faults_of_networks() -> Vec<Finding> {
         node("a", 1, sender),
         node("b", 2, sender),
         node("c", 2, receiver),
+        node("d", 3, &sender.replace("0x1FF", "0x5FF")),
     ];
     let mut found = crate::network::check(&nodes, None, 10, 0);
     let waiting = "[1005]\nDataType=7\nDefaultValue=0x80\n[1800]\nObjectType=9\n[1800sub1]\nDataType=7\nDefaultValue=0x182\n\
@@ -225,7 +226,7 @@ fn faults_of_networks() -> Vec<Finding> {
     for master in [None, Some(0)] {
         found.extend(crate::network::check(&nodes, master, 10, 0));
     }
-    let list = "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode2Name=x\nNode3DCFName=500\nNode3Name=x\n\
+    let list = "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode2Name=x\nNode2Name=y\nNode3DCFName=500\nNode3Name=x\n\
         Node3DCFNam=y\n[Topology]\n";
     let dcf = |rate: &str| {
         let text = format!("[DeviceComissioning]\nNodeID=2\nBaudrate={rate}\n");
@@ -237,6 +238,7 @@ fn faults_of_networks() -> Vec<Finding> {
     let span = crate::span::Span::default();
     let misspelled = crate::network::misspelled_key("a", "nodeid", &["node_id"], span);
     found.extend(misspelled);
+    found.extend(crate::network::unusual_bit_rate(300, span));
     let values =
         "[2000]\nDataType=5\nAccessType=ro\nPDOMapping=1\n[2001]\nDataType=5\nAccessType=rw\n";
     let mapping = node("d", 3, values);

@@ -11,8 +11,9 @@ use crate::description::Description;
 use crate::finding::Finding;
 use crate::log::Log;
 use crate::rules::network::{
-    w1207_bit_rate_differs, w1207_duplicate_section, w1207_key_misspelled, w1207_node_count,
-    w1207_node_id_differs, w1207_node_id_not_valid, w1207_present_not_valid, w1207_same_name,
+    w1207_bit_rate_differs, w1207_duplicate_section, w1207_key_misspelled, w1207_key_twice,
+    w1207_node_count, w1207_node_id_differs, w1207_node_id_not_valid, w1207_present_not_valid,
+    w1207_same_name,
 };
 use crate::scan::forms::near;
 use crate::scan::lines::{Fault, scan};
@@ -31,13 +32,16 @@ pub struct NodeList {
     pub findings: Vec<Finding>,
 }
 
-/// The keys of one node.
+/// The keys of one node, with their values.
 #[derive(Default)]
 struct Listed<'a> {
-    present: Option<&'a Text<'a>>,
-    name: Option<&'a Text<'a>>,
-    file: Option<&'a Text<'a>>,
+    present: Option<Pair<'a>>,
+    name: Option<Pair<'a>>,
+    file: Option<Pair<'a>>,
 }
+
+/// A key and its value.
+type Pair<'a> = (&'a Text<'a>, &'a Text<'a>);
 
 /// Reads the networks of a node list; `load` reads the description at a path.
 ///
@@ -78,7 +82,12 @@ pub fn node_lists(
         })
         .collect::<Result<_, String>>()?;
     if networks.is_empty() {
-        Err("the section [Topology] is missing".into())
+        let mut others = sections.iter();
+        let near_one = others.find(|other| near(&other.name, ["Topology"].into_iter()).is_some());
+        Err(match near_one {
+            Some(other) => misspelled(other.header.line, &other.name, "Topology"),
+            None => "the section [Topology] is missing".into(),
+        })
     } else {
         Ok(networks)
     }
@@ -114,7 +123,10 @@ fn topology(
                 What::Name => &mut node.name,
                 What::File => &mut node.file,
             };
-            place.get_or_insert(value);
+            match place {
+                Some((first, _)) => log.push(w1207_key_twice(key, first)),
+                None => *place = Some((key, value)),
+            }
         }
     }
     let mut list = NodeList {
@@ -128,17 +140,21 @@ fn topology(
     };
     let mut names: BTreeMap<&str, u8> = BTreeMap::new();
     for (id, listed) in nodes {
-        let present = listed.present.map(|present| (present, number(present)));
+        let present = value_of(listed.present).map(|present| (present, number(present)));
         if let Some((given, number)) = present
             && !matches!(number, Some(0 | 1))
         {
             log.push(w1207_present_not_valid(given, id));
         }
         let is_present = present.and_then(|(_, number)| number);
-        let Some(file) = listed.file.filter(|_| is_present != Some(0)) else {
+        let Some(file) = value_of(listed.file).filter(|_| is_present != Some(0)) else {
             if let Some((present, Some(1..))) = present {
-                let line = present.span.line;
-                return Err(format!("line {line}: Node{id}DCFName is missing"));
+                let right = format!("Node{id}DCFName");
+                let mut keys = section.pairs.iter().map(|(key, _)| key);
+                return Err(match keys.find(|key| meant(key).as_ref() == Some(&right)) {
+                    Some(key) => misspelled(key.span.line, key, &right),
+                    None => format!("line {}: {right} is missing", present.span.line),
+                });
             }
             continue;
         };
@@ -156,15 +172,14 @@ fn topology(
                 log.push(w1207_bit_rate_differs(file, rate, first));
             }
         }
-        if let Some(name) = listed.name {
+        if let Some(name) = value_of(listed.name) {
             match names.get(name.as_ref()) {
                 Some(other) => log.push(w1207_same_name(name, id, *other)),
                 None => drop(names.insert(name.as_ref(), id)),
             }
         }
-        let name = listed
-            .name
-            .map_or_else(|| format!("node{id}"), |name| name.to_string());
+        let name =
+            value_of(listed.name).map_or_else(|| format!("node{id}"), |name| name.to_string());
         let mut node = Node::new(name, id, description);
         node.writes = saved(&node).map_err(|why| format!("line {line}: node {id}: {why}"))?;
         if !node.writes.is_empty() {
@@ -181,6 +196,15 @@ fn topology(
     }
     list.findings = log.finish();
     Ok(list)
+}
+
+fn value_of<'a>(pair: Option<Pair<'a>>) -> Option<&'a Text<'a>> {
+    pair.map(|(_, value)| value)
+}
+
+/// An error about a name that misspells another.
+fn misspelled(line: u32, given: &str, right: &str) -> String {
+    format!("line {line}: `{given}` is not a name of a node list; write `{right}`")
 }
 
 /// The key of CiA 306-3 that a key misspells: `Node5DCFName` for `Node5DCFNam`.

@@ -10,8 +10,8 @@ use super::node::{Node, Setting};
 use crate::finding::Finding;
 use crate::identifiers::{Service, Used, mapping, used};
 use crate::rules::network::{
-    e1201_same_node_id, e1202_same_can_id, e1204_consumer_time_too_short, w1203_no_producer,
-    w1203_no_sync, w1205_bus_load, w1206_pdo_too_short,
+    e1201_same_node_id, e1202_same_can_id, e1204_consumer_time_too_short, e1210_can_id_reserved,
+    w1203_no_producer, w1203_no_sync, w1205_bus_load, w1206_pdo_too_short,
 };
 use crate::span::Span;
 
@@ -56,7 +56,12 @@ pub fn check(
             }
         }
     }
-    for (node, own) in nodes.iter().zip(&all) {
+    for (at, (node, own)) in nodes.iter().zip(&all).enumerate() {
+        // A master has the CAN-IDs of its nodes.
+        let own_ids = own.iter().filter(|_| Some(at) != master);
+        for used in own_ids.filter(|used| is_set_by_network(used)) {
+            found.extend(e1210_can_id_reserved(&named(node, used.service), used.id));
+        }
         for used in own.iter().filter(|used| !used.sends) {
             let producer = sent.get(&(used.is_extended, used.id));
             match (used.service, producer) {
@@ -101,6 +106,15 @@ fn valid(node: &Node, has_sync: bool) -> Vec<Used> {
             _ => true,
         })
         .collect()
+}
+
+/// Returns whether a network sets the CAN-ID of this service, and whether it has 11 bits.
+fn is_set_by_network(used: &Used) -> bool {
+    let is_set = matches!(
+        used.service,
+        Service::Tpdo(_) | Service::Rpdo(_) | Service::Time
+    );
+    is_set && !used.is_extended
 }
 
 fn bits(node: &Node, index: u16) -> u32 {

@@ -3,6 +3,7 @@
 use alloc::string::String;
 
 use crate::finding::{Finding, Form, Rule, Severity::Error};
+use crate::network::BIT_RATES;
 use crate::network::node::{Node, Setting};
 use crate::scan::forms::near;
 use crate::scan::section::Text;
@@ -20,6 +21,8 @@ table! {
     W1207 (example)
     W1208 (example)
     E1209 (example)
+    E1210 (example)
+    W1211 (example)
 }
 
 pub(crate) static E1201: Rule = Rule {
@@ -173,7 +176,9 @@ pub(crate) static W1207: Rule = Rule {
     example: "Node5DCFName=drive.dcf, and NodeID=6 in drive.dcf",
     says: "Nodes is {given}, but {count:node is|nodes are} present",
     help: "write `Nodes=0x{count:02X}`",
-    also: &[NODE_ID, PRESENT, OTHER_ID, BIT_RATE, KEY, NAME, SECTION],
+    also: &[
+        NODE_ID, PRESENT, OTHER_ID, BIT_RATE, KEY, NAME, SECTION, TWICE,
+    ],
     ..Rule::of("W1207")
 };
 
@@ -218,6 +223,18 @@ const SECTION: Form = Form {
     says: "duplicate section [{given}]",
     help: "move the nodes of both into one section, or number the sections of several networks",
 };
+
+/// Sentence for a key that the section has before.
+const TWICE: Form = Form {
+    says: "duplicate key `{key}`; odkit uses the first",
+    help: "remove one of the two lines",
+};
+
+pub(crate) fn w1207_key_twice(key: &Text<'_>, first: &Text<'_>) -> Finding {
+    let finding = W1207.at(key.span).form(&TWICE);
+    let finding = finding.fact("key", key.as_ref());
+    finding.related(first.span, "first given here")
+}
 
 /// The finding about a key that is probably misspelled, with the right one.
 pub(crate) fn w1207_key_misspelled(key: &Text<'_>, right: &str) -> Finding {
@@ -316,4 +333,38 @@ pub fn not_mappable(node: &Node, is_rpdo: bool, address: Address, span: Span) ->
             Some(finding.fact("pdo", pdo))
         }
     }
+}
+
+pub(crate) static E1210: Rule = Rule {
+    title: "CAN-ID of a network is reserved for another service",
+    why: "A message with a CAN-ID of NMT, SDO, error control or LSS disturbs that service in all nodes.",
+    source: "CiA 301, restricted CAN-IDs",
+    example: "cob_id: 0x5F0",
+    says: "{service} has CAN-ID {id:03X}h, which CiA 301 reserves for {owner}",
+    help: "write a CAN-ID that CiA 301 leaves free, such as 0x181 to 0x57F for PDOs",
+    ..Rule::of("E1210")
+};
+
+/// The finding about a service with this CAN-ID; `None` if no other service has it.
+pub(crate) fn e1210_can_id_reserved(service: &Named, id: u32) -> Option<Finding> {
+    let (_, owner) = od_model::restricted(id)?;
+    let finding = E1210.at(service.1).fact("service", service.0.as_str());
+    let finding = finding.fact("id", i128::from(id));
+    Some(finding.fact("owner", owner.name()))
+}
+
+pub(crate) static W1211: Rule = Rule {
+    title: "bit rate of a project is not one of CiA 301",
+    why: "A device that knows the bit rates of CiA 301 only does not come on the bus. dcfgen writes the number into the DCF of the master.",
+    source: "CiA 301, bit rates; dcf-tools, dcfgen",
+    example: "baudrate: 300",
+    says: "the bit rate is {rate} kbit/s",
+    help: "write 10, 20, 50, 125, 250, 500, 800 or 1000, the bit rate of the nodes",
+    ..Rule::of("W1211")
+};
+
+/// Returns the finding about the bit rate of a project in kbit/s at `span`, if CiA 301 does not have it.
+pub fn unusual_bit_rate(rate: u32, span: Span) -> Option<Finding> {
+    let finding = W1211.at(span).fact("rate", i128::from(rate));
+    (!BIT_RATES.contains(&rate)).then_some(finding)
 }

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Key;
 use crate::finding::{Finding, Fixability, Form, Rule, Severity};
+use crate::log::KEPT;
 
 /// Reads the text under a key as a value of this type.
 pub(crate) type ReadValue = fn(Key, &str, i128) -> Option<Read>;
@@ -86,17 +87,22 @@ pub struct Reading {
     pub on_demand: Vec<u32>,
     /// The node ID for which it computes values; `None` for the requested one.
     pub node_id: Option<i128>,
+    rejects: bool,
 }
 
 impl Reading {
     /// Returns whether the tool rejects the file.
     pub fn is_rejected(&self) -> bool {
-        self.findings.iter().any(Finding::is_error)
+        self.rejects
     }
 
-    /// Adds a finding of a tool's rule.
+    /// Adds a finding of a tool's rule. Of more than [`KEPT`] only the first error is kept.
     pub(crate) fn push(&mut self, finding: Finding) {
-        self.findings.push(finding);
+        let is_first_error = finding.is_error() && !self.rejects;
+        self.rejects |= is_first_error;
+        if self.findings.len() < KEPT || is_first_error {
+            self.findings.push(finding);
+        }
     }
 }
 

@@ -2,18 +2,18 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::description::Description;
+use crate::description::{Description, Section};
 use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 use crate::span::Spanned;
 
 pub(crate) static W0241: Rule = Rule {
-    title: "Lines does not match [Comments]",
+    title: "Lines does not match the comments",
     why: "A tool that trusts Lines shows too few comments, or stops at a missing one.",
-    source: "CiA 306-1, Comments",
+    source: "CiA 306-1, Comments and MxComments",
     fixability: Fixability::Safe,
-    says: "Lines is {given}, but [Comments] has {lines:line|lines}",
+    says: "Lines is {given}, but [{section}] has {lines:line|lines}",
     help: "write `Lines={lines}`{fix}",
     also: &[MISSING, OTHER],
     check: Check::Device(check),
@@ -22,21 +22,36 @@ pub(crate) static W0241: Rule = Rule {
 
 /// Sentence for comments without Lines.
 const MISSING: Form = Form {
-    says: "[Comments] has {lines:line|lines}, but lacks Lines",
+    says: "[{section}] has {lines:line|lines}, but lacks Lines",
     ..Form::OWN
 };
 
 /// Sentence for a line outside the numbers that Lines gives.
 const OTHER: Form = Form {
-    says: "Lines is {lines}, so `{given}` is not read: the lines are Line1 to Line{lines}",
+    says: "Lines of [{section}] is {lines}, so `{given}` is not read: the lines are Line1 to Line{lines}",
     help: "number the lines from 1, without a gap",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    let section = description.section("Comments");
-    let Some(section) = section.filter(|_| !description.objects.is_empty()) else {
-        return;
+    let sections = description.sections.iter();
+    let sections = sections.filter(|section| is_comments(&section.name));
+    if !description.objects.is_empty() {
+        findings.extend(sections.filter_map(lines_differ));
+    }
+}
+
+/// Returns whether a section has the comments of the device, or of a module (`M1Comments`).
+fn is_comments(name: &str) -> bool {
+    let start = name.len().checked_sub("Comments".len());
+    let Some((start, word)) = start.and_then(|at| name.split_at_checked(at)) else {
+        return false;
     };
+    let module = start.strip_prefix(['M', 'm']).and_then(number);
+    word.eq_ignore_ascii_case("Comments") && (start.is_empty() || module.is_some())
+}
+
+/// The finding about the comments in a section.
+fn lines_differ(section: &Section) -> Option<Finding> {
     let line = |key: &str| {
         let word = key.get(.."Line".len())?;
         let is_line = word.eq_ignore_ascii_case("Line");
@@ -55,9 +70,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             let is_other = |key: &&Spanned<String>| {
                 line(key).is_some_and(|number| !(1..=lines).contains(&number))
             };
-            let Some(other) = keys.find(is_other) else {
-                return;
-            };
+            let other = keys.find(is_other)?;
             let finding = W0241.at(other.span).form(&OTHER);
             finding.fact("given", other.as_str())
         }
@@ -67,11 +80,12 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             .at(given.span)
             .fact("given", given.as_str())
             .fix(Fix::safe().replace(given.span, format!("{lines}"))),
-        None if lines == 0 => return,
+        None if lines == 0 => return None,
         None => W0241
             .at(name)
             .form(&MISSING)
             .fix(Fix::safe().below(name, format!("Lines={lines}"))),
     };
-    findings.push(finding.fact("lines", lines));
+    let finding = finding.fact("section", section.name.as_str());
+    Some(finding.fact("lines", lines))
 }

@@ -29,8 +29,10 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let count = given.and_then(|given| number(given)).unwrap_or(0);
     match (description.section("DynamicChannels"), given) {
         (None, Some(given)) if count > 0 => findings.push(W0247.given(given)),
-        (Some(channels), _) if count == 0 => {
-            findings.push(W0247.at(channels.name.span).form(&DENIED));
+        (Some(channels), given) if count == 0 => {
+            let span = given.map_or(channels.name.span, |given| given.span);
+            let finding = W0247.at(span).form(&DENIED);
+            findings.push(finding.related(channels.name.span, "section of the channels"));
         }
         _ => {}
     }

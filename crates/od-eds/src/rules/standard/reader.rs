@@ -8,7 +8,7 @@ use crate::finding::{
     Severity::{Error, Info, Warning},
 };
 use crate::fix::Fix;
-use crate::scan::forms::Form as Wanted;
+use crate::scan::forms::{Form as Wanted, day};
 use crate::scan::section::Text;
 use crate::span::Span;
 
@@ -62,7 +62,7 @@ pub(crate) fn w0609_key_value_not_valid(
         None => finding,
     };
     // A number or a flag of the device, which no tool can use. Dates and versions of the file are
-    // only read by people; many files have a FileVersion such as `1.0`.
+    // only read by people; many files have a FileVersion such as `1.0`, or `08`.
     let is_number = matches!(wanted, Wanted::Flag | Wanted::Number(_));
     let is_read = section.eq_ignore_ascii_case("DeviceInfo")
         || section.eq_ignore_ascii_case("DeviceComissioning") && is_number
@@ -85,10 +85,11 @@ pub(crate) fn w0609_key_value_not_valid(
         .fact("given", &*given.value)
 }
 
-/// Returns whether this is a version with a point, such as `1.0` or `2.1.3`.
+/// Returns whether this is a version with points, such as `1.0` or `2.1.3`, or a number of one byte.
 fn is_version(text: &str) -> bool {
     let mut parts = text.split('.');
-    parts.all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
+    let is_number = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    parts.all(is_number) && (text.contains('.') || text.parse::<u8>().is_ok())
 }
 
 /// The number that is probably meant by hexadecimal digits without `0x`: `0xDEF` for `DEF`. `None` for
@@ -128,7 +129,8 @@ pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) ->
     }
 }
 
-/// Returns whether a time has fewer than 60 minutes, and a date a month and a day in either order.
+/// Returns whether a time has fewer than 60 minutes, and whether a date is a day of the calendar with month and day in either
+/// order.
 fn is_possible(text: &str) -> bool {
     let number = |part: Option<&str>| part.and_then(|part| part.get(..2)?.parse::<u8>().ok());
     let (mut time, mut date) = (text.split(':'), text.split('-'));
@@ -139,7 +141,8 @@ fn is_possible(text: &str) -> bool {
     }
     match (number(date.next()), number(date.next()), date.next()) {
         (Some(one), Some(other), Some(year)) if year.len() == 4 => {
-            (1..=12).contains(&one.min(other)) && (1..=31).contains(&one.max(other))
+            let turned = format!("{other}-{one}-{year}");
+            [text, &turned].iter().any(|text| day(text).is_some())
         }
         _ => true,
     }

@@ -384,11 +384,12 @@ pub(crate) static W0325: Rule = Rule {
 };
 
 /// Keys that belong to the sub-objects.
-pub(crate) const W0325_KEYS: [Key; 6] = [
+pub(crate) const W0325_KEYS: [Key; 7] = [
     Key::DataType,
     Key::AccessType,
     Key::PdoMapping,
     Key::DefaultValue,
+    Key::ParameterValue,
     Key::LowLimit,
     Key::HighLimit,
 ];
