@@ -249,13 +249,30 @@ pub(super) fn homing_speed(dut: &mut Dut<'_>) -> Checked {
         let wrong = [speed, later]
             .into_iter()
             .find(|is| (is - pace).abs() > window);
-        ensure(
+        let done = ensure(
             wrong.is_none(),
             format!(
                 "{pace}, {window} off at most, in {} during homing, as 6099h says",
                 axis.at(0x606C)
             ),
             format!("{} was read", wrong.unwrap_or(0)),
+        );
+        dut.fault(done)?;
+        // Halt stops homing, too.
+        let standing = axis.standing(dut)?;
+        axis.comes_to(dut, 0x606C, 0, standing, "after bit 4 of 6040h became 0")?;
+        axis.command(dut, ENABLE | START)?;
+        let end = dut.now().plus_micros(MOVE);
+        while axis.value(dut, 0x606C)?.abs() < pace - window && dut.now() < end {
+            dut.wait(10_000)?;
+        }
+        axis.command(dut, ENABLE | START | HALT)?;
+        axis.comes_to(
+            dut,
+            0x606C,
+            0,
+            standing,
+            "after halt, bit 8 of 6040h, during homing",
         )
     })
 }
@@ -298,6 +315,39 @@ pub(super) fn stop_at_once(dut: &mut Dut<'_>) -> Checked {
 
 /// Time in which a state changes without a ramp, in microseconds.
 const AT_ONCE: u64 = 100_000;
+
+/// Quick stop stops an axis on its way to a target position, too.
+pub(super) fn quick_stop_position(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        if !axis.has(dut, 0x606C) || !dut.eds.writes(0x6081 + axis.0, 0) {
+            return lacks("the drive does not have 606Ch and 6081h rw");
+        }
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        let pace = axis.pace(dut)?;
+        axis.set(dut, 0x6081, pace)?;
+        // Five seconds and more.
+        let target = from + way.max(5 * pace);
+        axis.set_point(dut, target, 0)?;
+        let near = axis.window(dut, 0x606D)?.max(pace / 10);
+        axis.comes_to(
+            dut,
+            0x606C,
+            pace,
+            near,
+            "on the way, with this value in 6081h",
+        )?;
+        axis.command(dut, 2)?;
+        let window = axis.standing(dut)?;
+        let when = "after quick stop on the way to a target position";
+        axis.comes_to(dut, 0x606C, 0, window, when)?;
+        let place = axis.value(dut, 0x6064)?;
+        ensure(
+            (place - target).abs() > axis.window(dut, 0x6067)?,
+            format!("{} before {target} after quick stop", axis.at(0x6064)),
+            format!("{place} was read"),
+        )
+    })
+}
 
 /// Halt stops an axis on its way to a target position, too.
 pub(super) fn halt_position(dut: &mut Dut<'_>) -> Checked {

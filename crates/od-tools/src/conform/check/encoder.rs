@@ -344,3 +344,34 @@ pub(super) fn at_rest(dut: &mut Dut<'_>) -> Checked {
     }
     at_least_one(!rates.is_empty(), "the EDS has neither 6030h nor 6040h")
 }
+
+/// Resolution, revolutions, and supported alarms and warnings are those of the EDS.
+pub(super) fn constants(dut: &mut Dut<'_>) -> Checked {
+    let mut any = false;
+    for index in [0x6501, 0x6502, 0x6504, 0x6506] {
+        let Some(entry) = dut.eds.entry(index, 0) else {
+            continue;
+        };
+        // Many files leave out the value.
+        let Some(wanted) = dut
+            .eds
+            .default(&entry, dut.node)
+            .filter(|it| it.iter().any(|byte| *byte != 0))
+        else {
+            continue;
+        };
+        any = true;
+        let is = dut.read(entry.address)?;
+        let done = ensure(
+            is == wanted,
+            format!(
+                "{} in {}, as in the EDS",
+                values::hex(&wanted),
+                entry.address
+            ),
+            format!("{} was read", values::hex(&is)),
+        );
+        dut.fault(done)?;
+    }
+    at_least_one(any, "the EDS has no value of 6501h, 6502h, 6504h and 6506h")
+}

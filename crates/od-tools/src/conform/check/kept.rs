@@ -477,8 +477,8 @@ fn saves_itself(dut: &mut Dut<'_>) -> Checked<bool> {
     if !dut.eds.has(0x1010) {
         return Ok(false);
     }
-    let count = dut.number(0x1010, 0)?.min(127) as u8;
-    for sub in 1..=count {
+    let highest = dut.upload(Address::new(0x1010, 0))?.unwrap_or_default();
+    for sub in 1..=number(&highest).min(127) as u8 {
         let can = dut.upload(Address::new(0x1010, sub))?;
         if can.is_ok_and(|bytes| number(&bytes) & 2 != 0) {
             return Ok(true);

@@ -10,6 +10,7 @@ mod file;
 mod heartbeat;
 mod kept;
 mod lss;
+mod maker;
 mod mapping;
 mod module;
 mod motion;
@@ -700,7 +701,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("drive-interpolated", motion::interpolated,
             "CiA 402 60C1h: In interpolated position mode, 6064h follows 60C1h:01 while bit 4 of 6040h is 1.").applies("cia402, 6040h rw, 6064h, 60C1h:01 rw").needs("motion"),
         check("drive-homing-speed", arrival::homing_speed,
-            "CiA 402 6099h: An axis that moves to a switch has the speed of 6099h, and the acceleration of 609Ah.").applies("cia402, 6040h rw, 606Ch, 6098h rw, 6099h:01 rw, 6099h:02 rw").needs("motion"),
+            "CiA 402 6099h: An axis that moves to a switch has the speed of 6099h, and the acceleration of 609Ah, and halt stops it.").applies("cia402, 6040h rw, 606Ch, 6098h rw, 6099h:01 rw, 6099h:02 rw").needs("motion"),
         check("drive-homing", arrival::homing,
             "CiA 402 6098h: After homing, bits 12 and 10 are 1, bit 13 is 0, and 6064h is the home offset.").applies("cia402, 6040h rw, 6064h, 6098h rw, 607Ch rw").needs("motion"),
         check("drive-quick-stop", motion::quick_stop,
@@ -713,6 +714,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 402 605Dh: Halt stops the axis, which stays in Operation enabled, and moves on after it.").applies("cia402, 6040h rw, 605Dh, 606Ch, 60FFh rw").needs("motion"),
         check("drive-halt-position", arrival::halt_position,
             "CiA 402 6040h: Halt stops an axis on its way to a target position.").applies("cia402, 6040h rw, 6064h, 606Ch, 607Ah rw").needs("motion"),
+        check("drive-quick-stop-position", arrival::quick_stop_position,
+            "CiA 402 6040h: Quick stop stops an axis on its way to a target position.").applies("cia402, 6040h rw, 6064h, 606Ch, 607Ah rw").needs("motion"),
         check("drive-ramps", motion::ramps,
             "CiA 402 6083h: The axis changes its speed more slowly with a smaller acceleration (6083h), deceleration (6084h) or quick stop deceleration (6085h).").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
         check("drive-ramp-options", motion::ramp_options,
@@ -749,6 +752,14 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 406 6505h: 6505h has only warnings that 6506h supports.").applies("cia406, 6505h, 6506h"),
         check("encoder-at-rest", encoder::at_rest,
             "CiA 406 6030h: Speed and acceleration are 0 while the position stays the same.").applies("cia406, 6004h"),
+        check("encoder-constants", encoder::constants,
+            "CiA 406 6501h: Resolution, revolutions, supported alarms and warnings are those of the EDS.").applies("cia406"),
+        check("encoder-repeat-counter", maker::repeats,
+            "Manual 000, object 2800h: A TPDO is repeated as often as its counter says while the position stays the same.").applies("cia406, 2800h rw, 1018h:02"),
+        check("encoder-customer-data", maker::customer_data,
+            "Manual 000, object 2300h: Customer data keep what was written.").applies("cia406, 2300h:01 rw, 1018h:02"),
+        check("encoder-clocks", maker::clocks,
+            "Manual 003, object 2A00h: The time since boot-up goes on, and so does a time stamp of the position.").applies("cia406, 1018h:02"),
         check("encoder-serial", encoder::serial,
             "CiA 406 650Bh: 650Bh is the serial number of 1018h.").applies("cia406, 650Bh, 1018h:04"),
     ]),

@@ -339,6 +339,11 @@ pub(super) fn set_point(dut: &mut Dut<'_>) -> Checked {
             let (is, window) = (axis.value(dut, 0x6062)?, axis.window(dut, 0x6067)?);
             axis.is_at(0x6062, is, target, window, "when the axis is there")?;
         }
+        if axis.has(dut, 0x60F4) {
+            let window = axis.window(dut, 0x6067)?;
+            let is = axis.value(dut, 0x60F4)?;
+            axis.is_at(0x60F4, is, 0, window, "when the axis is there")?;
+        }
         if !dut.eds.writes(0x6081 + axis.0, 0) || !axis.has(dut, 0x606C) {
             return Ok(());
         }
@@ -455,6 +460,11 @@ pub(super) fn velocity(dut: &mut Dut<'_>) -> Checked {
         axis.runs(dut, pace)?;
         axis.shows(dut, CHANGE, REACHED)?;
         axis.shows(dut, CHANGE, ("bit 12 = 0 while the axis moves", 1 << 12, 0))?;
+        if axis.has(dut, 0x606B) {
+            let window = axis.window(dut, 0x606D)?.max(pace / 100);
+            let is = axis.value(dut, 0x606B)?;
+            axis.is_at(0x606B, is, pace, window, "at the target velocity")?;
+        }
         axis.runs(dut, -pace)?;
         axis.set(dut, 0x60FF, 0)?;
         axis.shows(dut, MOVE, ("speed zero, bit 12 = 1", 1 << 12, 1 << 12))?;

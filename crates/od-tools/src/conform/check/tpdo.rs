@@ -410,6 +410,17 @@ pub(super) fn length(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn content(dut: &mut Dut<'_>) -> Checked {
     on_each(dut, |dut, pdo, _| {
         timed_on(dut, pdo, 50)?;
+        carries_values(dut, pdo)?;
+        // With other values, if a master can change any.
+        let entries = dut.eds.writable();
+        for one in mapping(dut, pdo.map())? {
+            if !entries.iter().any(|entry| entry.address == one.address) {
+                continue;
+            }
+            let mut other = dut.keep(one.address)?;
+            other.iter_mut().for_each(|byte| *byte ^= 1);
+            let _ = dut.download(one.address, &other)?;
+        }
         carries_values(dut, pdo)
     })
 }

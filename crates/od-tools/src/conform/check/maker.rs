@@ -1,0 +1,118 @@
+//! Objects of the manufacturer that the manuals of the built-in encoders describe. A case looks at the numbers of the
+//! product first, since other devices have other objects there.
+
+use od_model::{Address, values};
+use od_wire::nmt::Command;
+
+use super::tpdos::on_each;
+use super::transmit::timed_on;
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};
+
+/// Vendor and products of a manual.
+type Makers = (u64, &'static [u64]);
+
+/// GX families: manual 000.
+const GX: Makers = (0xEC, &[0x0A, 0x0B, 0x0C, 0x0D, 0x0E, 0x0F]);
+/// EAM: manual 001.
+const EAM: Makers = (0x5F, &[0x70, 0x71]);
+/// EN580C: manual 003.
+const EN: Makers = (0x5F, &[0x76]);
+
+fn is_of(dut: &mut Dut<'_>, makers: &[Makers]) -> Checked {
+    let (vendor, product) = (dut.number(0x1018, 1)?, dut.number(0x1018, 2)?);
+    let is_one = |(own, products): &Makers| *own == vendor && products.contains(&product);
+    if makers.iter().any(is_one) {
+        Ok(())
+    } else {
+        lacks("the object is that of another product")
+    }
+}
+
+/// A repeat counter limits how often a TPDO is sent while its value stays the same.
+pub(super) fn repeats(dut: &mut Dut<'_>) -> Checked {
+    is_of(dut, &[GX])?;
+    on_each(dut, |dut, pdo, _| {
+        let counter = Address::new(pdo.com + 0x1000, 0);
+        dut.keep(counter)?;
+        timed_on(dut, pdo, 50)?;
+        for (count, least, most) in [(3u8, 1, 4), (1, 0, 2), (0, 5, 100)] {
+            dut.write(counter, &[count])?;
+            dut.nmt(Command::Start)?;
+            let until = dut.now().plus_millis(600);
+            let (mut last, mut same) = (None, 0);
+            while let Some(heard) = dut.receive(until)? {
+                if pdo.carries(&heard.frame) {
+                    let data = heard.frame.data().to_vec();
+                    same += u32::from(last.replace(data.clone()) == Some(data));
+                }
+            }
+            dut.nmt(Command::EnterPreOperational)?;
+            let done = ensure(
+                (least..=most).contains(&same),
+                format!(
+                    "TPDO{} with the same value {least} to {most} times in 600 ms, as {counter} is {count}",
+                    pdo.com - 0x17FF
+                ),
+                format!("it came {same} times"),
+            );
+            dut.fault(done)?;
+        }
+        Ok(())
+    })
+}
+
+/// Each customer data object keeps all its bits, and changes no other one.
+pub(super) fn customer_data(dut: &mut Dut<'_>) -> Checked {
+    is_of(dut, &[GX, EAM, EN])?;
+    let entries: Vec<_> = dut.eds.dictionary().entries().collect();
+    let is_one = |address: Address| address.index == 0x2300 && address.sub > 0;
+    let all: Vec<Address> = entries
+        .iter()
+        .filter(|entry| is_one(entry.address) && entry.access.writable())
+        .map(|entry| entry.address)
+        .collect();
+    for round in [0x5A_u8, 0xA5] {
+        let mut written = Vec::new();
+        for address in &all {
+            let len = dut.keep(*address)?.len();
+            let value = vec![round ^ address.sub; len];
+            dut.write(*address, &value)?;
+            written.push((*address, value));
+        }
+        for (address, value) in written {
+            let is = dut.read(address)?;
+            let done = ensure(
+                is == value,
+                format!("{} in {address}, as written", values::hex(&value)),
+                format!("{} was read", values::hex(&is)),
+            );
+            dut.fault(done)?;
+        }
+    }
+    at_least_one(!all.is_empty(), "the EDS has no customer data")
+}
+
+/// The time stamp of the position, and the time since boot-up, go on.
+pub(super) fn clocks(dut: &mut Dut<'_>) -> Checked {
+    is_of(dut, &[EAM, EN])?;
+    let clocks = [Address::new(0x2120, 0), Address::new(0x2A00, 1)];
+    let mut any = false;
+    for clock in clocks {
+        if dut.eds.entry(clock.index, clock.sub).is_none() {
+            continue;
+        }
+        any = true;
+        let first = dut.read(clock)?;
+        let mut is_new = false;
+        for _ in 0..5 {
+            dut.wait(501_000)?;
+            is_new |= dut.read(clock)? != first;
+        }
+        if !is_new {
+            let got = format!("{} was read each time", values::hex(&first));
+            dut.fault(fail(format!("another value of {clock} after 2.5 s"), got))?;
+        }
+    }
+    at_least_one(any, "the EDS has neither 2120h nor 2A00h")
+}
