@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use od_eds::{Parsed, load, parse};
+use od_eds::fix::{Applicability, fix};
+use od_eds::{Document, Parsed, load, parse};
 
 fn count(parsed: &Parsed, code: &str) -> usize {
     let all = parsed.findings.iter();
@@ -234,4 +235,16 @@ fn time_grows_with_the_length_of_an_overlay() {
             assert!(end - start <= most, "{name}: {} ms", (end - start) * 10);
         }
     }
+}
+
+/// Each round makes 10,000 fixes of a rule; a file with more findings is fixed in parts.
+#[test]
+fn fixes_of_a_file_with_too_many_findings_end() {
+    let text = lines("[FileInfo]\n", 60_000, |_| "FileName=1".into());
+    let document = Document::new(text.into_bytes());
+    let done = fix(&document, Applicability::Safe, |document| {
+        document.load().findings
+    });
+    let left = done.document.text().matches("FileName=1").count();
+    assert_eq!(left, 30_000);
 }

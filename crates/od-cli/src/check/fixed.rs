@@ -2,12 +2,17 @@
 
 use std::fs;
 use std::path::Path;
+use std::time::Duration;
 
 use similar::TextDiff;
 
+/// Time after which a diff of many lines shows more lines than it must.
+const DIFF_TIME: Duration = Duration::from_millis(500);
+
 /// A unified diff between two texts; empty if they are equal.
 pub(super) fn difference(path: &str, before: &str, after: &str) -> String {
-    let diff = TextDiff::from_lines(before, after);
+    let mut config = TextDiff::configure();
+    let diff = config.timeout(DIFF_TIME).diff_lines(before, after);
     let shown = diff
         .unified_diff()
         .context_radius(3)

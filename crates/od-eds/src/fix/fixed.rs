@@ -18,6 +18,8 @@ use crate::scan::encoding::Encoding;
 const ROUNDS: usize = 64;
 /// Limit of runs over all rounds.
 const RUNS: usize = 8;
+/// Limit of rounds while a rule has too many findings to show all of them; each makes 10,000 fixes of the rule.
+const CAPPED_ROUNDS: usize = 3;
 /// Limit of documents that are read again to find harmful fixes.
 const TRIALS: usize = 1000;
 /// Rounds that are remembered to detect fixes that undo each other.
@@ -74,7 +76,7 @@ impl fmt::Display for Why {
 
 /// Applies the fixes of a document up to `level`; `find` returns its findings.
 ///
-/// A second run changes nothing. Every line without an edit keeps its bytes. A fix that
+/// A second run changes nothing, unless a rule has too many findings to show all of them. Every line without an edit keeps its bytes. A fix that
 /// would add an error, or that would not remove its finding, is left out; the others are applied.
 pub fn fix(
     document: &Document,
@@ -98,7 +100,7 @@ pub fn fix(
         };
         state = run.rounds(state, level);
         held = run.held;
-        if held.is_empty() || state.edits == before {
+        if held.is_empty() || state.edits == before || state.is_capped() {
             break;
         }
     }
@@ -187,8 +189,8 @@ struct Run<'f> {
 impl Run<'_> {
     fn rounds(&mut self, mut state: State, level: Applicability) -> State {
         let mut past: Vec<(State, BTreeSet<Fault>)> = Vec::new();
-        let mut rounds = 0;
-        while rounds < ROUNDS {
+        let (mut rounds, mut capped) = (0, 0);
+        while rounds < ROUNDS && capped < CAPPED_ROUNDS {
             let refused = &self.refused;
             let may =
                 |finding: &Finding| refused.is_empty() || !refused.contains(&state.fault(finding));
@@ -205,6 +207,7 @@ impl Run<'_> {
             };
             if state.is_capped() {
                 past.clear();
+                capped += 1;
             } else {
                 let faults = made
                     .iter()

@@ -141,6 +141,12 @@ const PARAMETER: &[Attribute] = &[
 ];
 
 const TEXT: &[Attribute] = &[required("lang", Any), own("URI", Any)];
+/// A value of a parameter: its default, a limit, a step.
+const VALUE: &[Attribute] = &[
+    required("value", Any),
+    own("offset", Any),
+    own("multiplier", Any),
+];
 const UNIQUE: &[Attribute] = &[own("uniqueIDRef", Reference)];
 
 /// The elements whose attributes are checked, by name.
@@ -202,8 +208,10 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
     ),
     ("LEDstateRef", &[required("stateIDRef", Reference)]),
     ("ProfileBody", BODY),
+    ("actualValue", VALUE),
     ("baudRate", &[own("defaultValue", Any)]),
     ("dataTypeIDRef", UNIQUE),
+    ("defaultValue", VALUE),
     ("description", TEXT),
     (
         "deviceCommissioning",
@@ -233,6 +241,8 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
         ],
     ),
     ("label", TEXT),
+    ("maxValue", VALUE),
+    ("minValue", VALUE),
     ("parameter", PARAMETER),
     (
         "parameterGroup",
@@ -240,7 +250,11 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
     ),
     ("parameterRef", &[required("uniqueIDRef", Reference)]),
     ("parameterTemplate", PARAMETER),
+    ("property", &[required("name", Any), required("value", Any)]),
+    ("step", VALUE),
+    ("substituteValue", VALUE),
     ("supportedBaudRate", &[required("value", Any)]),
+    ("unit", &[own("multiplier", Any), own("unitURI", Any)]),
     ("variableRef", &[]),
 ];
 
@@ -309,7 +323,6 @@ const OTHERS: &[&str] = &[
     "USINT",
     "WORD",
     "WSTRING",
-    "actualValue",
     "allowedValues",
     "allowedValuesTemplate",
     "array",
@@ -331,7 +344,6 @@ const OTHERS: &[&str] = &[
     "connection",
     "count",
     "dataTypeList",
-    "defaultValue",
     "denotation",
     "derived",
     "descriptionRef",
@@ -358,9 +370,7 @@ const OTHERS: &[&str] = &[
     "interface",
     "interfaceList",
     "labelRef",
-    "maxValue",
     "memberRef",
-    "minValue",
     "moduleInterface",
     "moduleInterfaceList",
     "moduleManagement",
@@ -377,19 +387,15 @@ const OTHERS: &[&str] = &[
     "productID",
     "productName",
     "productText",
-    "property",
     "range",
     "rangeList",
     "revisionNumber",
     "serialNumber",
     "specificationRevision",
     "standardComplianceList",
-    "step",
     "struct",
     "subrange",
-    "substituteValue",
     "templateList",
-    "unit",
     "unitURI",
     "value",
     "varDeclaration",

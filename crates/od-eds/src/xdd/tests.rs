@@ -305,3 +305,40 @@ fn a_finding_has_the_terms_of_the_schema() {
         assert!(!said.iter().any(|own| own.contains(eds)), "{eds}: {said:?}");
     }
 }
+
+#[test]
+fn attributes_of_a_parameter_are_those_of_the_schema() {
+    let parameter = |inside: &str| {
+        let list = format!(
+            "<parameterList><parameter uniqueID=\"P\" access=\"readWrite\"><label lang=\"en\">a</label>\
+             <INT/>{inside}</parameter></parameterList>"
+        );
+        let findings = crate::load(&file(&list, "")).findings;
+        let own = findings.iter().map(|one| crate::say(one, &crate::Eds));
+        let own = own.filter(|said| ["W0123", "W0318"].contains(&said.code));
+        own.map(|said| said.message).collect::<Vec<_>>()
+    };
+    for (inside, expected) in [
+        (
+            "<defaultValue valeu=\"0\"/>",
+            &[
+                "attribute value of defaultValue is missing",
+                "`valeu` is not an attribute of CiA 311 for this element",
+            ][..],
+        ),
+        (
+            "<unit multiplier=\"1\" unitUrl=\"#bar\"/>",
+            &["`unitUrl` is not an attribute of CiA 311 for this element"],
+        ),
+        (
+            "<property name=\"a\"/>",
+            &["attribute value of property is missing"],
+        ),
+        (
+            "<defaultValue value=\"0\"/><unit multiplier=\"1\" unitURI=\"#bar\"/><property name=\"a\" value=\"b\"/>",
+            &[],
+        ),
+    ] {
+        assert_eq!(parameter(inside), expected, "{inside}");
+    }
+}

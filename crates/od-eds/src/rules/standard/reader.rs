@@ -141,8 +141,10 @@ fn is_possible(text: &str) -> bool {
     }
     match (number(date.next()), number(date.next()), date.next()) {
         (Some(one), Some(other), Some(year)) if year.len() == 4 => {
-            let turned = format!("{other}-{one}-{year}");
-            [text, &turned].iter().any(|text| day(text).is_some())
+            // A program that knows no date writes the year 0001.
+            let year = year.max("1000");
+            let is_day = |month: u8, of: u8| day(&format!("{month}-{of}-{year}")).is_some();
+            is_day(one, other) || is_day(other, one)
         }
         _ => true,
     }
@@ -191,4 +193,35 @@ const W0658_XDC: Form = Form {
 pub(crate) fn w0658_commissioning_missing(is_xml: bool) -> Finding {
     let form = if is_xml { &W0658_XDC } else { &Form::OWN };
     W0658.finding().form(form)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_day_of_the_calendar_in_either_order_is_possible() {
+        for text in [
+            "02-29-2024",
+            "29-02-2024",
+            "01-01-0001",
+            "17:30PM",
+            "tomorrow",
+        ] {
+            assert!(is_possible(text), "{text}");
+        }
+        for text in ["02-30-2026", "02-29-2026", "13-13-2026", "09:75AM"] {
+            assert!(!is_possible(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_version_has_points_or_one_byte() {
+        for text in ["1.0", "2.10.3", "08", "255"] {
+            assert!(is_version(text), "{text}");
+        }
+        for text in ["256", "1.", "-", "1.a"] {
+            assert!(!is_version(text), "{text}");
+        }
+    }
 }
