@@ -62,6 +62,7 @@ fn is_lasting(case: &str) -> bool {
         "object-default",
         "lss",
         "heartbeat-saved",
+        "nmt-self-start",
         "sync-saved",
         "sdo-clients",
     ];

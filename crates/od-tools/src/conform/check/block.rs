@@ -8,7 +8,7 @@ use od_wire::AbortCode::{
 use od_wire::Frame;
 
 use super::segments::{ended_by_abort, long_value, short_value};
-use crate::conform::dut::{ANSWER, Dut, is_data};
+use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::record::Traced;
 use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request, reserved_are_0};
@@ -315,6 +315,11 @@ fn write(
             format!("the confirmation of {wanted} segments, A2h {wanted:02X}h"),
             got,
         )?;
+        ensure(
+            (1..=127).contains(&answer[2]),
+            "a next block of 1 to 127 segments",
+            format!("{} came", values::hex(&answer)),
+        )?;
         done += usize::from(wanted);
         block = answer[2];
     }
@@ -411,6 +416,37 @@ pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
     begin(dut, address, PLAIN)?;
     ended_by_abort(dut, address, &bytes, 0xA3)
+}
+
+/// An abort of the client ends a block download, which then wrote nothing.
+pub(super) fn download_aborted(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = writable(dut)?;
+    begin_download(dut, address, PLAIN, before.len())?;
+    let server = dut.node.plus(0x600);
+    let len = before.len().min(7);
+    // A server may refuse a full segment for a shorter value at once.
+    if before.len() > 7 {
+        let mut segment = [1, 0, 0, 0, 0, 0, 0, 0];
+        segment[1..].copy_from_slice(&before[..7]);
+        segment[1] ^= 1;
+        dut.send(Frame::full(server, segment))?;
+    }
+    dut.send(Frame::full(server, request(0x80, address, [0, 0, 0, 8])))?;
+    let id = dut.id(0x580);
+    dut.silent(id, QUIET, "no response to an abort")?;
+    let unused = (7 - len) as u8;
+    let answer = dut.answer([0xC1 | unused << 2, 0, 0, 0, 0, 0, 0, 0])?;
+    ensure(
+        abort_of(&answer).is_some(),
+        "an abort: the transfer is over",
+        format!("{} came", values::hex(&answer)),
+    )?;
+    let after = dut.read(address)?;
+    ensure(
+        after == before,
+        format!("{address} unchanged, {}", values::hex(&before)),
+        format!("{} was read", values::hex(&after)),
+    )
 }
 
 /// Block transfers are refused as other transfers: of an object that is missing, and a download to one that is read only.

@@ -4,26 +4,32 @@ use od_model::{Address, values};
 use od_wire::nmt::Command;
 use od_wire::{AbortCode, Frame};
 
-use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 
 const PRODUCER: Address = Address::new(0x1017, 0);
 const CONSUMER: Address = Address::new(0x1016, 1);
 
 pub(super) fn period(dut: &mut Dut<'_>) -> Checked {
-    every(dut, 100, 30)
+    every(dut, 100, 30, (Command::EnterPreOperational, 0x7F))?;
+    every(dut, 100, 6, (Command::Start, 5))?;
+    every(dut, 100, 6, (Command::Stop, 4))?;
+    dut.nmt(Command::EnterPreOperational)
 }
 
 pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
-    every(dut, 100, 2)?;
-    every(dut, 250, 4)?;
+    let state = (Command::EnterPreOperational, 0x7F);
+    every(dut, 100, 2, state)?;
+    every(dut, 250, 4, state)?;
     // A time that needs both bytes.
-    every(dut, 1000, 2)
+    every(dut, 1000, 2, state)
 }
 
-/// Checks that heartbeats arrive at this period, within 10 %.
-fn every(dut: &mut Dut<'_>, millis: u16, count: usize) -> Checked {
+/// Checks that heartbeats arrive at this period, within 10 %, in the state after this command.
+fn every(dut: &mut Dut<'_>, millis: u16, count: usize, (command, state): (Command, u8)) -> Checked {
+    dut.nmt(Command::EnterPreOperational)?;
     dut.set(PRODUCER, &millis.to_le_bytes())?;
+    dut.nmt(command)?;
     dut.drain()?;
     let id = dut.id(0x700);
     let period = u64::from(millis) * 1000;
@@ -39,8 +45,8 @@ fn every(dut: &mut Dut<'_>, millis: u16, count: usize) -> Checked {
         };
         let got = format!("{} came", heard.frame);
         ensure(
-            heard.frame.data() == [0x7F],
-            "the heartbeat of Pre-operational, 7Fh",
+            heard.frame.data() == [state],
+            format!("the heartbeat of {}, {state:02X}h", state_name(state)),
             got,
         )?;
         if let Some(before) = last.replace(heard.at) {
@@ -71,6 +77,36 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
         Some(_) => Ok(()),
         None => fail("a heartbeat every 50 ms again after 1017h = 0", "none came"),
     }
+}
+
+/// Heartbeats come while the node serves SDO requests, refuses them and is told of an abort, and after it.
+pub(super) fn beside_transfers(dut: &mut Dut<'_>) -> Checked {
+    dut.set(PRODUCER, &[100, 0])?;
+    dut.drain()?;
+    let (first, begin) = (dut.frames.len(), dut.now());
+    while dut.now() < begin.plus_millis(1000) {
+        dut.still_serves()?;
+        // A missing sub-index, and an abort of the client.
+        let _ = dut.upload(Address::new(0x1018, 0x77))?;
+        dut.send(Frame::full(
+            dut.node.plus(0x600),
+            [0x80, 0, 0, 0, 0, 0, 0, 8],
+        ))?;
+        dut.settle(20_000)?;
+    }
+    dut.wait(200_000)?;
+    let id = dut.id(0x700);
+    let all = dut.frames.get(first..).unwrap_or_default().iter();
+    let beats = all.filter(|traced| !traced.ours && is_data(&traced.frame, id));
+    let count = beats.count() as u64;
+    let due = dut.now().micros_since(begin) / 100_000;
+    ensure(
+        (due - due / 4..=due + 2).contains(&count),
+        format!(
+            "about {due} heartbeats, one every 100 ms, while SDO requests are served and refused"
+        ),
+        format!("{count} came"),
+    )
 }
 
 pub(super) fn states(dut: &mut Dut<'_>) -> Checked {
@@ -169,7 +205,45 @@ pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     // Also after Stopped.
     dut.nmt(Command::Stop)?;
     dut.nmt(Command::Start)?;
-    reports_silence(dut, node)
+    reports_silence(dut, node, 200)?;
+    // A time that needs both bytes.
+    beat(dut, node)?;
+    dut.write(CONSUMER, &[0xE8, 3, node, 0])?;
+    reports_silence(dut, node, 1000)
+}
+
+/// Two entries of 1016h at once: each of their nodes is missed while the other one sends its heartbeat.
+pub(super) fn consumer_two(dut: &mut Dut<'_>) -> Checked {
+    let all = consumers(dut)?;
+    let own = dut.node.raw();
+    sends_emcy(dut)?;
+    let nodes = [104, 105, 106]
+        .into_iter()
+        .filter(|node| *node != own)
+        .take(2);
+    let nodes: Vec<u8> = nodes.collect();
+    for (address, node) in all.iter().zip(&nodes) {
+        dut.set(*address, &[200, 0, *node, 0])?;
+    }
+    dut.nmt(Command::Start)?;
+    for missing in &nodes {
+        for node in &nodes {
+            beat(dut, *node)?;
+        }
+        let from = dut.frames.len();
+        let (mut came, end) = (None, dut.now().plus_millis(1000));
+        while came.is_none() && dut.now() < end {
+            for node in nodes.iter().filter(|node| *node != missing) {
+                beat(dut, *node)?;
+            }
+            came = emcy_since(dut, from, 0x8130, 50_000)?;
+        }
+        if came.is_none() {
+            let expected = format!("EMCY 8130h within 1 s of the last heartbeat of node {missing}");
+            dut.fault(fail(expected, "none came"))?;
+        }
+    }
+    Ok(())
 }
 
 /// Heartbeats of another node do not replace those of the monitored one.
@@ -194,23 +268,29 @@ pub(super) fn consumer_other_node(dut: &mut Dut<'_>) -> Checked {
 /// The node monitors in Pre-operational, too.
 pub(super) fn consumer_pre_operational(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 200)?;
-    reports_silence(dut, node)
+    reports_silence(dut, node, 200)
 }
 
-/// One heartbeat, and EMCY 8130h after the heartbeat time of 200 ms.
-fn reports_silence(dut: &mut Dut<'_>, node: u8) -> Checked {
+/// One heartbeat, and EMCY 8130h after the heartbeat time.
+fn reports_silence(dut: &mut Dut<'_>, node: u8, millis: u64) -> Checked {
     beat(dut, node)?;
     let from = dut.now();
-    match emcy(dut, 0x8130, 1_000_000)? {
+    match emcy(dut, 0x8130, (millis + 800) * 1000)? {
         Some(_) => {
             let took = dut.now().micros_since(from);
             ensure(
-                took + 1000 >= 200_000,
-                "EMCY 8130h after 200 ms",
+                took + 1000 >= millis * 1000,
+                format!("EMCY 8130h after {millis} ms"),
                 format!("it came after {} ms", took / 1000),
             )
         }
-        None => fail("EMCY 8130h within 1 s of the last heartbeat", "none came"),
+        None => fail(
+            format!(
+                "EMCY 8130h within {} ms of the last heartbeat",
+                millis + 800
+            ),
+            "none came",
+        ),
     }
 }
 
@@ -459,23 +539,46 @@ pub(super) fn guarding_objects(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
+/// The life time is the product of 100Ch and 100Dh.
 pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
     sends_emcy(dut)?;
     without_heartbeat(dut)?;
-    dut.set(Address::new(0x100C, 0), &[100, 0])?;
-    dut.set(Address::new(0x100D, 0), &[2])?;
+    for (millis, factor) in [(100, 2), (100, 4), (300, 1)] {
+        life_time(dut, millis, factor)?;
+    }
+    Ok(())
+}
+
+fn life_time(dut: &mut Dut<'_>, millis: u16, factor: u8) -> Checked {
+    dut.set(Address::new(0x100C, 0), &millis.to_le_bytes())?;
+    dut.set(Address::new(0x100D, 0), &[factor])?;
     dut.nmt(Command::Start)?;
+    let life = u64::from(millis) * u64::from(factor) * 1000;
     let from = dut.frames.len();
     for _ in 0..3 {
         guarded(dut)?;
-        if emcy_since(dut, from, 0x8130, 80_000)?.is_some() {
+        if emcy_since(dut, from, 0x8130, life * 6 / 10)?.is_some() {
             return fail("no EMCY 8130h while the node is guarded", "it came");
         }
     }
-    match emcy(dut, 0x8130, 500_000)? {
-        Some(_) => Ok(()),
-        None => fail("EMCY 8130h within 500 ms of the last request", "none came"),
+    guarded(dut)?;
+    let begin = dut.now();
+    // A node may count guard times.
+    let within = life + u64::from(millis) * 1000 + 80_000;
+    let shown = format!("EMCY 8130h {} to {} ms", life / 1000, within / 1000);
+    let shown =
+        format!("{shown} after the last request, with {millis} in 100Ch and {factor} in 100Dh");
+    match emcy(dut, 0x8130, within)? {
+        Some(_) => {
+            let took = dut.now().micros_since(begin) + dut.rig.slack() + 20_000;
+            let got = format!("it came after {} ms", dut.now().micros_since(begin) / 1000);
+            ensure(took >= life, shown, got)?;
+        }
+        None => return fail(shown, "none came"),
     }
+    // The next request ends the error.
+    guarded(dut)?;
+    dut.nmt(Command::EnterPreOperational)
 }
 
 /// After reset communication life guarding waits for the first request again.

@@ -454,6 +454,114 @@ pub(super) fn saves_each(dut: &mut Dut<'_>) -> Checked {
     changed(dut, is_saved, test, true)
 }
 
+/// Every value that was saved is there after the power was off.
+pub(super) fn saves_over_power(dut: &mut Dut<'_>) -> Checked {
+    if dut.number(0x1010, 1)? & 1 == 0 {
+        return lacks("the node does not save on command");
+    }
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        command(dut, 0x1010, 1, b"save")?;
+        changes.undo(dut)?;
+        dut.power(false)?;
+        dut.wait(500_000)?;
+        dut.drain()?;
+        let from = dut.now();
+        dut.power(true)?;
+        dut.booted(from)?;
+        let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
+        changes.compare(dut, other, "after the power was off, as saved")
+    };
+    changed(dut, is_saved, test, true)
+}
+
+/// The parts of 1010h and 1011h that CiA 301 defines: of communication and of the application.
+const PARTS: [(u8, Command); 2] = [(2, Command::ResetCommunication), (3, Command::ResetNode)];
+
+/// Returns whether a sub-index 2 or 3 of 1010h and 1011h is about the value, and no value of the other part is the same
+/// one: 6200h of an encoder is also the event timer of the first TPDO (CiA 406).
+fn is_of_part(entry: &Entry, is_encoder: bool) -> bool {
+    let Address { index, sub } = entry.address;
+    let is_shared = is_encoder && matches!((index, sub), (0x6200, _) | (0x1800, 5));
+    let is_part = matches!(entry.group, Group::Communication | Group::Application);
+    is_saved(entry) && is_part && !is_shared
+}
+
+/// Returns whether the value is an entry of a mapping, which may have any value beyond the number of mapped objects.
+fn is_mapped(address: Address) -> bool {
+    matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub > 0
+}
+
+/// Returns whether this sub-index of 1010h and 1011h is about the changed value.
+fn is_part(dut: &Dut<'_>, change: &Change, sub: u8) -> bool {
+    let entry = dut.eds.entry(change.address.index, change.address.sub);
+    entry.is_some_and(|entry| entry.group.covered_by(sub))
+}
+
+/// 1010h:02 and 1010h:03 save each value of their own, and no other.
+pub(super) fn saves_parts(dut: &mut Dut<'_>) -> Checked {
+    parts(dut, |dut, changes, sub, _| {
+        command(dut, 0x1010, sub, b"save")?;
+        changes.undo(dut)?;
+        dut.reset(Command::ResetNode)?;
+        let wanted = |dut: &Dut<'_>, change: &Change| {
+            if is_part(dut, change, sub) {
+                return Some(change.other.clone());
+            }
+            (!is_mapped(change.address)).then(|| change.before.clone())
+        };
+        let when = format!("after a save by 1010h:{sub:02X} and the reset");
+        changes.compare(dut, wanted, &when)
+    })
+}
+
+/// 1011h:02 and 1011h:03 restore each value of their own, and no other.
+pub(super) fn restores_parts(dut: &mut Dut<'_>) -> Checked {
+    parts(dut, |dut, changes, sub, reset| {
+        if dut.eds.entry(0x1011, sub).is_none() || dut.number(0x1011, sub)? & 1 == 0 {
+            return Ok(());
+        }
+        command(dut, 0x1010, 1, b"save")?;
+        command(dut, 0x1011, sub, b"load")?;
+        dut.reset(reset)?;
+        let wanted = |dut: &Dut<'_>, change: &Change| {
+            if !is_part(dut, change, sub) {
+                return Some(change.other.clone());
+            }
+            let entry = dut.eds.entry(change.address.index, change.address.sub)?;
+            dut.eds.default(&entry, dut.node)
+        };
+        let when = format!("after a restore by 1011h:{sub:02X} and the reset");
+        changes.compare(dut, wanted, &when)
+    })
+}
+
+/// Runs a test for each of these parts that the node saves on command.
+fn parts(
+    dut: &mut Dut<'_>,
+    test: impl Fn(&mut Dut<'_>, &Changes, u8, Command) -> Checked,
+) -> Checked {
+    if saves_itself(dut)? {
+        return lacks("the node saves values itself");
+    }
+    if dut.number(0x1010, 1)? & 1 == 0 {
+        return lacks("the node does not save on command");
+    }
+    let is_encoder = dut.eds.meets("cia406") == Some(true);
+    let mut any = false;
+    for (sub, reset) in PARTS {
+        if dut.eds.entry(0x1010, sub).is_none() || dut.number(0x1010, sub)? & 1 == 0 {
+            continue;
+        }
+        any = true;
+        // The memory has what the node has now.
+        command(dut, 0x1010, 1, b"save")?;
+        let test = |dut: &mut Dut<'_>, changes: &Changes| test(dut, changes, sub, reset);
+        let done = changed(dut, |entry| is_of_part(entry, is_encoder), test, true);
+        dut.fault(done)?;
+    }
+    at_least_one(any, "1010h has no sub-index 2 or 3 that saves on command")
+}
+
 /// Every value has its default after a save, a restore and a reset.
 pub(super) fn restores_each(dut: &mut Dut<'_>) -> Checked {
     if dut.number(0x1010, 1)? & 1 == 0 || dut.number(0x1011, 1)? & 1 == 0 {
@@ -570,4 +678,34 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
 fn read_all(dut: &mut Dut<'_>, all: &[Address]) -> Checked<Vec<Vec<u8>>> {
     let read = |address: &Address| Ok(dut.upload(*address)?.unwrap_or_default());
     all.iter().map(read).collect()
+}
+
+/// With 8 in 1F80h a node enters Operational after a reset, without a command.
+pub(super) fn self_start(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1F80, 0);
+    let is_saved = dut.eds.entry(0x1F80, 0).map(|entry| entry.group);
+    if !is_saved.is_some_and(|group| group.covered_by(1)) {
+        return lacks("1010h:01 does not save 1F80h, by the EDS");
+    }
+    let before = dut.read(address)?;
+    if dut.download(address, &[8, 0, 0, 0])?.is_err() {
+        return lacks("the node does not start itself");
+    }
+    let done = (|| {
+        command(dut, 0x1010, 1, b"save")?;
+        for reset in [Command::ResetNode, Command::ResetCommunication] {
+            dut.reset(reset)?;
+            dut.follow_state()?;
+            let done = dut.is_in(5);
+            dut.fault(done)?;
+        }
+        Ok(())
+    })();
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(address, &before)?;
+    command(dut, 0x1010, 1, b"save")?;
+    done
 }

@@ -40,7 +40,7 @@ fn raw(dut: &mut Dut<'_>, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
 }
 
 /// Fails unless the response of the slave begins with these bytes.
-fn answers(dut: &mut Dut<'_>, request: Request, wanted: &[u8]) -> Checked {
+pub(super) fn answers(dut: &mut Dut<'_>, request: Request, wanted: &[u8]) -> Checked {
     let shown = format!("LSS response {}", values::hex(wanted));
     match ask(dut, request)? {
         Some(answer) => {
@@ -60,7 +60,7 @@ fn one(dut: &mut Dut<'_>, shown: &str) -> Checked {
     }
 }
 
-fn stays_silent(dut: &mut Dut<'_>, data: [u8; 8], why: &str) -> Checked {
+pub(super) fn stays_silent(dut: &mut Dut<'_>, data: [u8; 8], why: &str) -> Checked {
     match raw(dut, data)? {
         Some(answer) => fail(
             format!("no LSS response to {}, {why}", values::hex(&data)),
@@ -82,7 +82,7 @@ pub(super) fn waiting(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// Enters Stopped and the LSS waiting state; returns the LSS address.
-fn begin(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
+pub(super) fn begin(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     let all = address(dut)?;
     dut.nmt(Command::Stop)?;
     waiting(dut)?;
@@ -90,7 +90,7 @@ fn begin(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
 }
 
 /// Selects the node by its address; returns the response to the last of the four frames.
-fn select(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked<Option<[u8; 8]>> {
+pub(super) fn select(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked<Option<[u8; 8]>> {
     let mut last = None;
     for (part, value) in Part::ALL.into_iter().zip(all) {
         if last.is_some() {
@@ -126,14 +126,32 @@ pub(super) fn selective(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn selective_other(dut: &mut Dut<'_>) -> Checked {
     let all = begin(dut)?;
     for part in 0..4 {
-        let mut other = all;
-        other[part] ^= 1;
-        if let Some(answer) = select(dut, other)? {
-            waiting(dut)?;
-            return fail(
-                "no LSS response to another LSS address",
-                values::hex(&answer),
-            );
+        // One bit of each byte.
+        for bit in [0, 8, 16, 31] {
+            let mut other = all;
+            other[part] ^= 1 << bit;
+            if let Some(answer) = select(dut, other)? {
+                waiting(dut)?;
+                return fail(
+                    "no LSS response to another LSS address",
+                    values::hex(&answer),
+                );
+            }
+        }
+        // The last number right, and this one left out.
+        let some = Part::ALL.into_iter().zip(all).enumerate();
+        for (place, (number, value)) in some.filter(|(place, _)| *place != part && part != 3) {
+            let request = Request::SwitchSelective {
+                part: number,
+                value,
+            };
+            if let Some(answer) = ask(dut, request)? {
+                waiting(dut)?;
+                return fail(
+                    format!("no LSS response to number {place} without number {part}"),
+                    values::hex(&answer),
+                );
+            }
         }
     }
     Ok(())
@@ -146,6 +164,13 @@ pub(super) fn waiting_silent(dut: &mut Dut<'_>) -> Checked {
     for request in [
         Request::InquireNodeId,
         Request::Inquire { part: Part::Vendor },
+        Request::Inquire {
+            part: Part::Product,
+        },
+        Request::Inquire {
+            part: Part::Revision,
+        },
+        Request::Inquire { part: Part::Serial },
         Request::ConfigureNodeId { node_id },
         Request::ConfigureBitTiming {
             table: 0,
@@ -180,104 +205,10 @@ pub(super) fn inquire_node_id(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// Sends the six numbers of identify remote slave; returns the response to the last one.
-fn identified(dut: &mut Dut<'_>, range: [u32; 6]) -> Checked<Option<[u8; 8]>> {
-    for (step, value) in (0..5).zip(range) {
-        dut.drain()?;
-        let request = Request::IdentifyRemote { step, value };
-        dut.send(Frame::standard(MASTER, &request.emit()))?;
-        if let Some(heard) = dut.next(20_000, |frame| is_data(frame, SLAVE))? {
-            return fail(
-                "no LSS response before the sixth number",
-                format!("{} came", heard.frame),
-            );
-        }
-    }
-    let [.., value] = range;
-    ask(dut, Request::IdentifyRemote { step: 5, value })
-}
-
-pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
-    let [vendor, product, revision, serial] = begin(dut)?;
-    let right = [vendor, product, revision, revision, serial, serial];
-    match identified(dut, right)? {
-        Some([0x4F, 0, 0, 0, 0, 0, 0, 0]) => {}
-        Some(other) => {
-            return fail(
-                "LSS response 4F with 0 in bytes 1 to 7",
-                values::hex(&other),
-            );
-        }
-        None => {
-            let wide = [vendor, product, 0, u32::MAX, 0, u32::MAX];
-            if identified(dut, wide)?.is_some() {
-                return fail(
-                    "LSS response 4F to ranges that begin and end with the numbers of the node",
-                    "only a wider range has a response",
-                );
-            }
-            return lacks(
-                "the node does not answer LSS identify remote slave; one that has fastscan need not",
-            );
-        }
-    }
-    // A range that begins above the number, or ends below it.
-    for (place, name, is_high) in [
-        (0, "vendor-ID", false),
-        (1, "product code", false),
-        (2, "revision number", false),
-        (3, "revision number", true),
-        (4, "serial number", false),
-        (5, "serial number", true),
-    ] {
-        let mut wrong = right;
-        if is_high {
-            let Some(below) = wrong[place].checked_sub(1) else {
-                continue;
-            };
-            wrong[place - 1] = 0;
-            wrong[place] = below;
-        } else {
-            wrong[place] = wrong[place].wrapping_add(1);
-            if place == 2 || place == 4 {
-                wrong[place + 1] = u32::MAX;
-            }
-            if wrong[place] == 0 {
-                continue;
-            }
-        }
-        if let Some(answer) = identified(dut, wrong)? {
-            let done = fail(
-                format!("no LSS response to identify remote slave with another {name}"),
-                format!("{} came", values::hex(&answer)),
-            );
-            dut.fault(done)?;
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn identify_unconfigured(dut: &mut Dut<'_>) -> Checked {
-    begin(dut)?;
-    let request = Request::IdentifyNonConfigured.emit();
-    stays_silent(dut, request, "as the node has a node ID")
-}
-
-pub(super) fn fastscan_configured(dut: &mut Dut<'_>) -> Checked {
-    begin(dut)?;
-    let request = Request::Fastscan {
-        number: 0,
-        bit: 128,
-        part: 0,
-        next: 0,
-    };
-    stays_silent(dut, request.emit(), "as the node has a node ID")
-}
-
 pub(super) fn node_id_range(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
         let mut done = Ok(());
-        for node_id in [0, 128, 129, 200, 254] {
+        for node_id in (128..=254).chain([0]) {
             done = answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 1]);
             if done.is_err() {
                 break;
@@ -303,7 +234,13 @@ pub(super) fn node_id(dut: &mut Dut<'_>) -> Checked {
         let node_id = dut.node.raw();
         let other = if node_id == 100 { 101 } else { 100 };
         answers(dut, Request::ConfigureNodeId { node_id: other }, &[0x11, 0])?;
-        let done = if sees_state { dut.is_in(4) } else { Ok(()) };
+        let mut done = if sees_state { dut.is_in(4) } else { Ok(()) };
+        for other in (1..=127).filter(|other| *other != node_id) {
+            if done.is_ok() {
+                let request = Request::ConfigureNodeId { node_id: other };
+                done = answers(dut, request, &[0x11, 0]);
+            }
+        }
         answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0])?;
         done
     })
@@ -345,8 +282,11 @@ pub(super) fn activate(dut: &mut Dut<'_>) -> Checked {
     let done = stays_silent(dut, request.emit(), "as activate bit timing has none");
     dut.wait(4 * u64::from(DELAY) * 1000)?;
     waiting(dut)?;
+    let why = "as the node is in the waiting state after the activation";
+    let silent = stays_silent(dut, Request::InquireNodeId.emit(), why);
     dut.nmt(Command::EnterPreOperational)?;
     done?;
+    silent?;
     dut.still_serves()
 }
 
@@ -367,7 +307,15 @@ pub(super) fn undeclared(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
     let done = with(dut, |dut, _| {
         // CiA 305 reserves the tables 1 to 127.
-        for (table, index) in [(0, 0x55), (1, 0), (127, 0)] {
+        for (table, index) in [
+            (0, 10),
+            (0, 0x55),
+            (0, 0xFF),
+            (1, 0),
+            (2, 0),
+            (64, 0),
+            (127, 0),
+        ] {
             let request = Request::ConfigureBitTiming { table, index };
             answers(dut, request, &[0x13, 1])?;
         }
@@ -379,39 +327,50 @@ pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// The bit rates of the table that the EDS does not name are refused; a node that accepts one is reset.
+/// The bit rates of the table that the EDS names are accepted, and the others refused; then the node is reset.
 pub(super) fn bit_rates(dut: &mut Dut<'_>) -> Checked {
     let Some(named) = dut.eds.description.lss_bit_rates() else {
         return lacks("the EDS does not declare LSS");
     };
-    // Index 5 is reserved, and some devices have 100 kbit/s there.
-    let others = (0u8..)
-        .zip(named)
-        .filter(|(index, named)| *index != 5 && !named);
-    let others: Vec<u8> = others.map(|(index, _)| index).collect();
-    if others.is_empty() {
-        return lacks("the EDS names all bit rates of the table");
-    }
     let done = with(dut, |dut, _| {
-        for index in others {
-            let request = Request::ConfigureBitTiming { table: 0, index };
-            answers(dut, request, &[0x13, 1])?;
+        for (index, is_named) in (0u8..).zip(named) {
+            // Index 5 is reserved, and some devices have 100 kbit/s there.
+            if index != 5 {
+                let request = Request::ConfigureBitTiming { table: 0, index };
+                let done = answers(dut, request, &[0x13, u8::from(!is_named)]);
+                dut.fault(done)?;
+            }
         }
         Ok(())
     });
-    if matches!(done, Err(End::Fail { .. })) {
-        dut.reset(Command::ResetNode)?;
-    }
+    dut.reset(Command::ResetNode)?;
     done
 }
 
 pub(super) fn unknown(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
-        for command in [0x60, 0x02, 0x70] {
-            let data = [command, 0, 0, 0, 0, 0, 0, 0];
-            stays_silent(dut, data, "as the command does not exist")?;
+        let exists = |code: &u8| {
+            let codes = [0x04, 0x11, 0x13, 0x15, 0x17, 0x51];
+            codes.contains(code) || matches!(code, 0x40..=0x43 | 0x46..=0x4C | 0x5A..=0x5E)
+        };
+        dut.drain()?;
+        for command in (0..=0xFF).filter(|code| !exists(code)) {
+            dut.send(Frame::standard(MASTER, &[command, 0, 0, 0, 0, 0, 0, 0]))?;
+            if let Some(heard) = dut.next(2_000, |frame| is_data(frame, SLAVE))? {
+                return fail(
+                    format!("no LSS response to {command:02X}h, a command that does not exist"),
+                    format!("{} came", heard.frame),
+                );
+            }
         }
-        Ok(())
+        let is_ours = |frame: &Frame| is_data(frame, SLAVE);
+        match dut.next(QUIET, is_ours)? {
+            Some(heard) => fail(
+                "no LSS response to commands that do not exist",
+                format!("{} came", heard.frame),
+            ),
+            None => Ok(()),
+        }
     })
 }
 
@@ -437,15 +396,29 @@ pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// Switch state global to the configuration state has no response.
+/// Switch state global to the configuration state has no response, and the node is in this state then.
 pub(super) fn global_silent(dut: &mut Dut<'_>) -> Checked {
     begin(dut)?;
     let request = Request::SwitchGlobal {
         configuration: true,
     };
-    let done = stays_silent(dut, request.emit(), "as it is for all slaves");
+    let silent = stays_silent(dut, request.emit(), "as it is for all slaves");
+    // All slaves refuse this bit rate with the same frame, so that several may answer at once.
+    let timing = Request::ConfigureBitTiming {
+        table: 0,
+        index: 0x55,
+    };
+    let answer = ask(dut, timing)?;
     waiting(dut)?;
-    done
+    silent?;
+    ensure(
+        matches!(answer, Some([0x13, ..])),
+        "LSS response 13, as the node is in the configuration state after switch state global",
+        match answer {
+            Some(answer) => format!("{} came", values::hex(&answer)),
+            None => "none came".into(),
+        },
+    )
 }
 
 /// The slave leaves the configuration state without a response and without a boot-up message.
@@ -507,8 +480,9 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     for part in Part::ALL {
         answers.push((ask(dut, Request::Inquire { part })?, 5));
     }
-    let node_id = dut.node.raw();
-    answers.push((ask(dut, Request::ConfigureNodeId { node_id })?, 3));
+    for node_id in [0, dut.node.raw()] {
+        answers.push((ask(dut, Request::ConfigureNodeId { node_id })?, 3));
+    }
     waiting(dut)?;
     for (answer, first) in answers {
         // A missing response fails another case.
@@ -650,136 +624,4 @@ pub(super) fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
             Ok(false)
         }
     }
-}
-
-/// Fastscan finds a node without a node ID, number by number, and the node gets its node ID back.
-pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
-    let all = configured(dut)?;
-    match ask(dut, Request::ConfigureNodeId { node_id: 255 })? {
-        Some([0x11, 0, ..]) => {}
-        _ => {
-            waiting(dut)?;
-            return lacks("the node cannot be without a node ID");
-        }
-    }
-    waiting(dut)?;
-    let node = dut.node.raw();
-    dut.send(Frame::standard(0, &[0x82, node]))?;
-    let id = dut.id(0x700);
-    let keeps = dut.next_of(id, 1_000_000)?.is_some();
-    let done = if keeps {
-        lacks("the node keeps its node ID")
-    } else {
-        scan(dut, all)
-    };
-    // In any case the node gets its node ID back.
-    if keeps {
-        begin(dut)?;
-    }
-    let found = select(dut, all)?;
-    if found.is_none() {
-        ask(
-            dut,
-            Request::SwitchGlobal {
-                configuration: true,
-            },
-        )?;
-    }
-    ask(dut, Request::ConfigureNodeId { node_id: node })?;
-    let from = dut.now();
-    if keeps {
-        waiting(dut)?;
-    } else {
-        let request = Request::SwitchGlobal {
-            configuration: false,
-        };
-        dut.send(Frame::standard(MASTER, &request.emit()))?;
-        if dut.next_of(id, 5_000_000)?.is_none() {
-            return done.and(fail(
-                "the boot-up message with the node ID from LSS",
-                "none came",
-            ));
-        }
-        dut.times.boots.push(dut.now().micros_since(from));
-    }
-    done
-}
-
-/// A fastscan that continues with a known number ends early. According to the flow chart of CiA 305
-/// a slave may then be in the configuration state; according to its text all four numbers must
-/// match. This is a remark only.
-fn early_end(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
-    for (part, next) in [(0, 1), (1, 0)] {
-        let number = all[usize::from(part)];
-        let request = Request::Fastscan {
-            number,
-            bit: 0,
-            part,
-            next,
-        };
-        ask(dut, request)?;
-    }
-    if ask(dut, Request::Inquire { part: Part::Vendor })?.is_some() {
-        dut.notes.push(
-            "remark, CiA 305 6.7: after two of the four numbers, with LSS next below LSS sub, the node is in the \
-             configuration state; the flow chart allows it, the text wants all four numbers"
-                .into(),
-        );
-    }
-    waiting(dut)
-}
-
-fn scan(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
-    let start = Request::Fastscan {
-        number: 0,
-        bit: 128,
-        part: 0,
-        next: 0,
-    };
-    if ask(dut, start)?.is_none() {
-        return lacks("the node does not have fastscan");
-    }
-    early_end(dut, all)?;
-    ask(dut, start)?;
-    for (part, number) in (0..).zip(all) {
-        for bit in (0..32u8).rev() {
-            // The bits so far are right and this bit is 0, so the node responds if the bit of its
-            // number is 0, too.
-            let known = u64::from(number) >> (bit + 1) << (bit + 1);
-            let request = Request::Fastscan {
-                number: known as u32,
-                bit,
-                part,
-                next: part,
-            };
-            let came = ask(dut, request)?;
-            if let Some(answer) = came.filter(|answer| answer[1..] != [0; 7]) {
-                return fail(
-                    "LSS response 4F with 0 in bytes 1 to 7",
-                    format!("{} came", values::hex(&answer)),
-                );
-            }
-            let wanted = number >> bit & 1 == 0;
-            if came.is_some() != wanted {
-                let word = |yes| if yes { "a response" } else { "no response" };
-                return fail(
-                    format!("{} to bit {bit} of number {part}", word(wanted)),
-                    word(came.is_some()),
-                );
-            }
-        }
-        let next = if part == 3 { 0 } else { part + 1 };
-        answers(
-            dut,
-            Request::Fastscan {
-                number,
-                bit: 0,
-                part,
-                next,
-            },
-            &[0x4F],
-        )?;
-    }
-    // Now it is in the configuration state.
-    answers(dut, Request::Inquire { part: Part::Vendor }, &[0x5A])
 }

@@ -20,18 +20,18 @@ const TYPE: Address = Address::new(0x1000, 0);
 pub(super) fn boot_up(dut: &mut Dut<'_>) -> Checked {
     for state in [Command::EnterPreOperational, Command::Start, Command::Stop] {
         dut.nmt(state)?;
-        boots_once(dut)?;
+        boots_once(dut, Command::ResetNode)?;
     }
     Ok(())
 }
 
-/// NMT reset node, and one boot-up message.
-fn boots_once(dut: &mut Dut<'_>) -> Checked {
+/// A reset, and one boot-up message.
+fn boots_once(dut: &mut Dut<'_>, reset: Command) -> Checked {
     dut.drain()?;
     let id = dut.id(0x700);
     let node = dut.node.raw();
     let from = dut.now();
-    dut.send(Frame::standard(0, &[0x81, node]))?;
+    dut.send(Frame::standard(0, &[reset as u8, node]))?;
     let Some(heard) = dut.next_of(id, 10_000_000)? else {
         return fail(
             format!("the boot-up message {id:03X}#00 within 10 s"),
@@ -56,7 +56,7 @@ fn boots_once(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn boot_up_after_communication(dut: &mut Dut<'_>) -> Checked {
     for state in [Command::EnterPreOperational, Command::Start, Command::Stop] {
         dut.nmt(state)?;
-        dut.reset(Command::ResetCommunication)?;
+        boots_once(dut, Command::ResetCommunication)?;
     }
     Ok(())
 }
@@ -161,7 +161,21 @@ pub(super) fn power_on(dut: &mut Dut<'_>) -> Checked {
     dut.wait(500_000)?;
     dut.drain()?;
     dut.power(true)?;
-    boots_first(dut)
+    boots_first(dut)?;
+    if let Some(heard) = boot_up_in(dut, QUIET)? {
+        return fail("one boot-up message", format!("{heard} came again"));
+    }
+    match dut.follow_state() {
+        Err(End::NotApplicable(_)) => Ok(()),
+        seen => seen.and_then(|()| dut.is_in(PRE_OPERATIONAL)),
+    }
+}
+
+/// A boot-up message within this time.
+fn boot_up_in(dut: &mut Dut<'_>, micros: u64) -> Checked<Option<Frame>> {
+    let all = dut.all_of(dut.id(0x700), micros)?;
+    let mut frames = all.into_iter().map(|heard| heard.frame);
+    Ok(frames.find(|frame| frame.data() == [0]))
 }
 
 pub(super) fn pre_operational_after_reset(dut: &mut Dut<'_>) -> Checked {
@@ -242,7 +256,14 @@ fn change(dut: &mut Dut<'_>, steps: &[(Command, u8)]) -> Checked {
 
 pub(super) fn all_nodes(dut: &mut Dut<'_>) -> Checked {
     dut.follow_state()?;
-    for (command, state) in [(1, OPERATIONAL), (2, STOPPED), (0x80, PRE_OPERATIONAL)] {
+    for (command, state) in [
+        (1, OPERATIONAL),
+        (2, STOPPED),
+        (1, OPERATIONAL),
+        (0x80, PRE_OPERATIONAL),
+        (2, STOPPED),
+        (0x80, PRE_OPERATIONAL),
+    ] {
         dut.send(Frame::standard(0, &[command, 0]))?;
         dut.wait(20_000)?;
         dut.is_in(state)?;
@@ -250,10 +271,14 @@ pub(super) fn all_nodes(dut: &mut Dut<'_>) -> Checked {
     // The other nodes on the bus are reset, too.
     let resets: &[u8] = if dut.may_reset { &[0x82, 0x81] } else { &[] };
     for reset in resets {
-        dut.drain()?;
-        let from = dut.now();
-        dut.send(Frame::standard(0, &[*reset, 0]))?;
-        dut.booted(from)?;
+        for state in [0x80, 1, 2] {
+            dut.send(Frame::standard(0, &[state, 0]))?;
+            dut.wait(20_000)?;
+            dut.drain()?;
+            let from = dut.now();
+            dut.send(Frame::standard(0, &[*reset, 0]))?;
+            dut.booted(from)?;
+        }
     }
     Ok(())
 }
@@ -290,6 +315,15 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
             dut.is_in(state)?;
         }
     }
+    // Node IDs that differ in one bit: only the command that cannot start another node.
+    for bit in 0..7 {
+        let other = dut.node.raw() ^ 1 << bit;
+        if other != 0 {
+            dut.send(Frame::standard(0, &[0x80, other]))?;
+            dut.settle(20_000)?;
+            dut.is_in(OPERATIONAL)?;
+        }
+    }
     Ok(())
 }
 
@@ -297,13 +331,23 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
     dut.follow_state()?;
     let node = dut.node.raw();
-    for command in [Command::Start, Command::Stop] {
-        let data = Repr { command, node }.emit();
-        if let Some(frame) = Frame::new(CanId::extended(0), &data) {
-            dut.send(frame)?;
+    let boot = "no reset by a frame with a CAN-ID of 29 bits";
+    for command in [
+        Command::Start,
+        Command::Stop,
+        Command::ResetNode,
+        Command::ResetCommunication,
+    ] {
+        for node in [node, 0] {
+            let data = Repr { command, node }.emit();
+            if let Some(frame) = Frame::new(CanId::extended(0), &data) {
+                dut.send(frame)?;
+            }
+            if let Some(heard) = boot_up_in(dut, QUIET)? {
+                return fail(boot, format!("{heard} came"));
+            }
+            dut.is_in(PRE_OPERATIONAL)?;
         }
-        dut.settle(QUIET)?;
-        dut.is_in(PRE_OPERATIONAL)?;
     }
     Ok(())
 }
@@ -341,11 +385,30 @@ pub(super) fn unknown_command(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn short_command(dut: &mut Dut<'_>) -> Checked {
     dut.follow_state()?;
-    dut.send_to(0, &[1])?;
-    dut.send_to(0, &[])?;
-    dut.ask_for(CanId::standard(0), 2)?;
-    dut.wait(20_000)?;
-    dut.is_in(PRE_OPERATIONAL)
+    for (state, code) in [
+        (Command::EnterPreOperational, PRE_OPERATIONAL),
+        (Command::Start, OPERATIONAL),
+    ] {
+        dut.nmt(state)?;
+        for command in [None, Some(1), Some(2), Some(0x80), Some(0x81), Some(0x82)] {
+            if command == Some(state as u8) {
+                continue;
+            }
+            let command: Vec<u8> = command.into_iter().collect();
+            dut.send_to(0, &command)?;
+            if let Some(heard) = boot_up_in(dut, 50_000)? {
+                return fail(
+                    format!("no reset by the bytes {command:02X?} without a node ID"),
+                    format!("{heard} came"),
+                );
+            }
+            dut.is_in(code)?;
+        }
+        dut.ask_for(CanId::standard(0), 2)?;
+        dut.wait(20_000)?;
+        dut.is_in(code)?;
+    }
+    Ok(())
 }
 
 pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {

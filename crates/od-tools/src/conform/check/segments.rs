@@ -9,6 +9,7 @@ use od_wire::Frame;
 use od_wire::nmt::Command;
 
 use crate::conform::dut::{Dut, QUIET};
+use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, ensure, fail, lacks, skip};
 use crate::conform::sdo::{abort_of, abort_text, is_abort, request, reserved_are_0};
 
@@ -320,7 +321,20 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     let segments: &[(u8, usize)] = &[(0x20, 1), (0x30, 1)];
     let segments = if segmented.is_ok() { segments } else { &[] };
     let first = [&[(0x60, 4)], segments].concat();
-    reserved_are_0(dut, from, &first)
+    reserved_are_0(dut, from, &first)?;
+    // Of every number: its own value.
+    let mut all = dut.eds.writable();
+    // 1019h can be written only while 1006h is 0.
+    all.retain(|entry| is_number(entry) && entry.address.index != 0x1019);
+    let from = dut.frames.len();
+    for entry in all {
+        let own = dut.upload(entry.address)?.unwrap_or_default();
+        let is_allowed = dut.eds.excludes(entry.address, &own, dut.node).is_none();
+        if is_allowed && matches!(own.len(), 1..=4) {
+            let _ = dut.download(entry.address, &own)?;
+        }
+    }
+    reserved_are_0(dut, from, &[(0x60, 4)])
 }
 
 /// A client that leaves a download open gets the value of its next upload, and the download wrote nothing.

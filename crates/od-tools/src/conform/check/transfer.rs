@@ -17,29 +17,33 @@ use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
 
 const TYPE: Address = Address::new(0x1000, 0);
 
-/// Uploads entries of one, two, three and four bytes: the command byte indicates the number, or no
-/// size (42h).
+/// Uploads every entry of one to four bytes: the command byte indicates the number, or no size (42h).
 pub(super) fn upload_sizes(dut: &mut Dut<'_>) -> Checked {
-    for size in 1..=4 {
-        let mut entries = dut.eds.dictionary().entries();
-        let fits = |entry: &Entry| entry.access.readable() && entry.data_type.size() == Some(size);
-        let Some(entry) = entries.find(fits) else {
+    let entries = dut.eds.dictionary().entries();
+    let readable = entries.filter(|entry| entry.access.readable());
+    for entry in readable.collect::<Vec<Entry>>() {
+        let Some(size @ 1..=4) = entry.data_type.size() else {
             continue;
         };
         let answer = dut.answer(request(0x40, entry.address, [0; 4]))?;
+        // Other cases test whether an object is there.
+        if abort_of(&answer).is_some() {
+            continue;
+        }
         let got = format!("{} came", values::hex(&answer));
         let wanted = 0x43 | (4 - size as u8) << 2;
-        ensure(
+        let done = ensure(
             answer[0] == wanted || answer[0] == 0x42,
             format!("{wanted:02X}h, {size} bytes, or 42h for {}", entry.address),
             got.clone(),
-        )?;
-        let unused = &answer[4 + size..];
-        ensure(
-            unused.iter().all(|byte| *byte == 0),
-            "0 in the bytes without data",
+        );
+        dut.fault(done)?;
+        let done = ensure(
+            answer[4 + size..].iter().all(|byte| *byte == 0),
+            format!("0 in the bytes without data for {}", entry.address),
             got,
-        )?;
+        );
+        dut.fault(done)?;
     }
     Ok(())
 }
@@ -237,14 +241,17 @@ fn absent(dut: &mut Dut<'_>, command: u8) -> Checked {
     let Some(index) = dut.eds.missing() else {
         return lacks("the EDS has every object that could be missing");
     };
-    dut.refuses(
-        request(command, Address::new(index, 0), [0; 4]),
-        &[NoObject],
-    )
+    // CiA 301 reserves the objects 0000h and FFFFh.
+    for address in [(index, 0), (index, 1), (0, 0), (0xFFFF, 0)] {
+        let address = Address::new(address.0, address.1);
+        let done = dut.refuses(request(command, address, [0; 4]), &[NoObject]);
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 pub(super) fn unknown_command(dut: &mut Dut<'_>) -> Checked {
-    for command in [0xE0, 0xFF] {
+    for command in 0xE0..=0xFF {
         let answer = dut.answer(request(command, TYPE, [0; 4]))?;
         is_abort(&answer, &[InvalidCommand])?;
     }
@@ -452,6 +459,31 @@ impl Channel {
         Ok(heard.map(|heard| heard.frame))
     }
 
+    /// A value of more than four bytes, by segments.
+    fn long(self, dut: &mut Dut<'_>, address: Address) -> Checked<Vec<u8>> {
+        self.serves(dut, request(0x40, address, [0; 4]))?;
+        let (mut bytes, mut toggle) = (Vec::new(), 0);
+        loop {
+            let Some(frame) = self.ask(dut, [0x60 | toggle, 0, 0, 0, 0, 0, 0, 0], ANSWER)? else {
+                return fail(
+                    format!("a segment {} of {address}", self.answer),
+                    "none came",
+                );
+            };
+            let [command, data @ ..] = *frame.bytes();
+            ensure(
+                command & 0xF0 == toggle && bytes.len() < 1 << 20,
+                format!("a segment {toggle:02X}h to {:02X}h", toggle | 0xF),
+                format!("{frame} came"),
+            )?;
+            bytes.extend_from_slice(&data[..7 - usize::from(command >> 1 & 7)]);
+            if command & 1 == 1 {
+                return Ok(bytes);
+            }
+            toggle ^= 0x10;
+        }
+    }
+
     /// The response to a request, which must be about its object.
     fn serves(self, dut: &mut Dut<'_>, request: [u8; 8]) -> Checked<[u8; 8]> {
         let Self { ask, answer, index } = self;
@@ -470,12 +502,31 @@ impl Channel {
     }
 }
 
-/// An upload and a download by this server.
+/// Uploads and a download by this server, and an abort.
 fn serves(dut: &mut Dut<'_>, index: u16) -> Checked {
     let Some(channel) = Channel::of(dut, index)? else {
         return Ok(());
     };
     channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
+    if let Some(missing) = dut.eds.missing() {
+        let answer = channel.serves(dut, request(0x40, Address::new(missing, 0), [0; 4]))?;
+        is_abort(&answer, &[NoObject])?;
+    }
+    match segments::long_value(dut) {
+        Err(End::NotApplicable(_)) => {}
+        found => {
+            let (address, bytes) = found?;
+            let again = channel.long(dut, address)?;
+            ensure(
+                again == bytes,
+                format!(
+                    "{} of {address} by the SDO server {index:04X}h",
+                    values::hex(&bytes)
+                ),
+                format!("{} came", values::hex(&again)),
+            )?;
+        }
+    }
     let Some((address, value)) = another_value(dut)? else {
         return Ok(());
     };
