@@ -327,24 +327,33 @@ pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// The bit rates of the table that the EDS names are accepted, and the others refused; then the node is reset.
+/// The bit rates of the table that the EDS names are accepted, and the others refused; then the node is reset. A node that
+/// refuses all of them has no bit rate by LSS.
 pub(super) fn bit_rates(dut: &mut Dut<'_>) -> Checked {
     let Some(named) = dut.eds.description.lss_bit_rates() else {
         return lacks("the EDS does not declare LSS");
     };
+    let mut any = false;
     let done = with(dut, |dut, _| {
         for (index, is_named) in (0u8..).zip(named) {
             // Index 5 is reserved, and some devices have 100 kbit/s there.
-            if index != 5 {
-                let request = Request::ConfigureBitTiming { table: 0, index };
-                let done = answers(dut, request, &[0x13, u8::from(!is_named)]);
-                dut.fault(done)?;
+            if index == 5 {
+                continue;
             }
+            let request = Request::ConfigureBitTiming { table: 0, index };
+            let done = answers(dut, request, &[0x13, u8::from(!is_named)]);
+            any |= is_named && done.is_ok();
+            dut.fault(done)?;
         }
         Ok(())
     });
     dut.reset(Command::ResetNode)?;
-    done
+    done?;
+    if !any && named.contains(&true) {
+        dut.faults.clear();
+        return lacks("the node refuses every bit rate by LSS");
+    }
+    Ok(())
 }
 
 pub(super) fn unknown(dut: &mut Dut<'_>) -> Checked {
