@@ -125,6 +125,9 @@ fn takes_presets(dut: &mut Dut<'_>, (preset, position, offset): Preset) -> Check
         values.extend([0, range / 2 + 1, range - 1]);
     }
     let mut faults = Vec::new();
+    // A preset value does not change the position of the shaft itself.
+    let raw = dut.eds.entry(0x600C, 0).map(|entry| entry.address);
+    let raw_before = raw.map(|it| at(dut, it)).transpose()?;
     for value in values {
         let was = (
             at(dut, position)?,
@@ -157,6 +160,14 @@ fn takes_presets(dut: &mut Dut<'_>, (preset, position, offset): Preset) -> Check
                 format!("{} was read", now.unwrap_or(0)),
             )),
         );
+    }
+    if let (Some(address), Some(before)) = (raw, raw_before) {
+        let is = at(dut, address)?;
+        faults.push(ensure(
+            is.abs_diff(before) <= 4096 * NOISE,
+            format!("{before} in {address}, the raw value, about as before the preset"),
+            format!("{is} was read"),
+        ));
     }
     // Restores the position: the preset value that gives the earlier one.
     dut.write(preset, &(before as u32).to_le_bytes())?;

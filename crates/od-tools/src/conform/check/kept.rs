@@ -16,6 +16,7 @@ use crate::conform::sdo::number;
 /// A value before a change, and after it.
 struct Change {
     address: Address,
+    /// Empty for a mapping entry that was not in use, whose value then does not matter.
     before: Vec<u8>,
     other: Vec<u8>,
 }
@@ -327,10 +328,7 @@ impl Changes {
                 let was = before.values();
                 for (address, other) in other.values() {
                     let was = was.iter().find(|(one, _)| *one == address);
-                    let was = match was {
-                        Some((_, bytes)) => bytes.clone(),
-                        None => vec![0; other.len()],
-                    };
+                    let was = was.map(|(_, bytes)| bytes.clone()).unwrap_or_default();
                     if was != other {
                         self.add(address, was, other);
                     }
@@ -394,6 +392,13 @@ impl Changes {
             dut.fault(done)?;
         }
         Ok(())
+    }
+}
+
+impl Change {
+    /// The value before, if it matters.
+    fn earlier(&self) -> Option<Vec<u8>> {
+        (!self.before.is_empty()).then(|| self.before.clone())
     }
 }
 
@@ -474,21 +479,19 @@ pub(super) fn saves_over_power(dut: &mut Dut<'_>) -> Checked {
     changed(dut, is_saved, test, true)
 }
 
-/// The parts of 1010h and 1011h that CiA 301 defines: of communication and of the application.
-const PARTS: [(u8, Command); 2] = [(2, Command::ResetCommunication), (3, Command::ResetNode)];
+/// The parts of 1010h and 1011h: of communication, of the application, and of the manufacturer.
+const PARTS: [(u8, Command); 3] = [
+    (2, Command::ResetCommunication),
+    (3, Command::ResetNode),
+    (4, Command::ResetNode),
+];
 
-/// Returns whether a sub-index 2 or 3 of 1010h and 1011h is about the value, and no value of the other part is the same
+/// Returns whether a sub-index 2 to 4 of 1010h and 1011h is about the value, and no value of the other part is the same
 /// one: 6200h of an encoder is also the event timer of the first TPDO (CiA 406).
 fn is_of_part(entry: &Entry, is_encoder: bool) -> bool {
     let Address { index, sub } = entry.address;
     let is_shared = is_encoder && matches!((index, sub), (0x6200, _) | (0x1800, 5));
-    let is_part = matches!(entry.group, Group::Communication | Group::Application);
-    is_saved(entry) && is_part && !is_shared
-}
-
-/// Returns whether the value is an entry of a mapping, which may have any value beyond the number of mapped objects.
-fn is_mapped(address: Address) -> bool {
-    matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub > 0
+    is_saved(entry) && !is_shared
 }
 
 /// Returns whether this sub-index of 1010h and 1011h is about the changed value.
@@ -497,7 +500,7 @@ fn is_part(dut: &Dut<'_>, change: &Change, sub: u8) -> bool {
     entry.is_some_and(|entry| entry.group.covered_by(sub))
 }
 
-/// 1010h:02 and 1010h:03 save each value of their own, and no other.
+/// 1010h:02 to 1010h:04 save each value of their own, and no other.
 pub(super) fn saves_parts(dut: &mut Dut<'_>) -> Checked {
     parts(dut, |dut, changes, sub, _| {
         command(dut, 0x1010, sub, b"save")?;
@@ -507,14 +510,14 @@ pub(super) fn saves_parts(dut: &mut Dut<'_>) -> Checked {
             if is_part(dut, change, sub) {
                 return Some(change.other.clone());
             }
-            (!is_mapped(change.address)).then(|| change.before.clone())
+            change.earlier()
         };
         let when = format!("after a save by 1010h:{sub:02X} and the reset");
         changes.compare(dut, wanted, &when)
     })
 }
 
-/// 1011h:02 and 1011h:03 restore each value of their own, and no other.
+/// 1011h:02 to 1011h:04 restore each value of their own, and no other.
 pub(super) fn restores_parts(dut: &mut Dut<'_>) -> Checked {
     parts(dut, |dut, changes, sub, reset| {
         if dut.eds.entry(0x1011, sub).is_none() || dut.number(0x1011, sub)? & 1 == 0 {
@@ -559,7 +562,7 @@ fn parts(
         let done = changed(dut, |entry| is_of_part(entry, is_encoder), test, true);
         dut.fault(done)?;
     }
-    at_least_one(any, "1010h has no sub-index 2 or 3 that saves on command")
+    at_least_one(any, "1010h has no sub-index 2 to 4 that saves on command")
 }
 
 /// Every value has its default after a save, a restore and a reset.
@@ -603,7 +606,7 @@ fn forgets_each(dut: &mut Dut<'_>, command: Command, groups: &[Group]) -> Checke
     let which = |entry: &Entry| groups.contains(&entry.group);
     let test = |dut: &mut Dut<'_>, changes: &Changes| {
         dut.reset(command)?;
-        let before = |_: &Dut<'_>, change: &Change| Some(change.before.clone());
+        let before = |_: &Dut<'_>, change: &Change| change.earlier();
         changes.compare(dut, before, "after the reset, as before the change")
     };
     changed(dut, which, test, false)
@@ -708,4 +711,33 @@ pub(super) fn self_start(dut: &mut Dut<'_>) -> Checked {
     dut.write(address, &before)?;
     command(dut, 0x1010, 1, b"save")?;
     done
+}
+
+/// Every parameter has the same value in Operational as in Pre-operational.
+pub(super) fn in_operational(dut: &mut Dut<'_>) -> Checked {
+    let entries = dut.eds.dictionary().entries();
+    let is_one = |entry: &Entry| {
+        entry.access.writable()
+            && entry.access.readable()
+            && entry.group != Group::None
+            && entry.data_type.size().is_some_and(|size| size <= 4)
+            && !(0x1F50..=0x1F5F).contains(&entry.address.index)
+    };
+    let all: Vec<Address> = entries.filter(is_one).map(|entry| entry.address).collect();
+    let first = read_all(dut, &all)?;
+    dut.nmt(Command::Start)?;
+    let second = read_all(dut, &all)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    let third = read_all(dut, &all)?;
+    for (at, address) in all.iter().enumerate() {
+        // A value that is not the same afterwards changes without a write.
+        let name = values::label(dut.eds.dictionary(), *address);
+        let done = ensure(
+            first[at] == second[at] || first[at] != third[at],
+            format!("{} in {name} in Operational, too", values::hex(&first[at])),
+            format!("{} was read", values::hex(&second[at])),
+        );
+        dut.fault(done)?;
+    }
+    at_least_one(!all.is_empty(), "the EDS has no parameter")
 }

@@ -237,10 +237,17 @@ pub(super) fn gaps(
     is_right: impl Fn(u64, u64) -> bool,
     shown: &str,
 ) -> Checked {
-    middle_gap(dut, pdo, count, |gap, _, slack| is_right(gap, slack), shown)
+    let all = gaps_between(dut, pdo, count, shown)?;
+    let (middle, _) = all[all.len() / 2];
+    ensure(
+        is_right(middle, dut.rig.slack()),
+        format!("a TPDO {shown}"),
+        format!("they came every {}.{:03} ms", middle / 1000, middle % 1000),
+    )
 }
 
-/// The gaps of a TPDO that its event timer sends, 10 % off at most. One with another value may come earlier.
+/// The gaps of a TPDO that its event timer sends, 10 % off at most, and none is missing. One with another value may come
+/// earlier.
 pub(super) fn timer_gaps(
     dut: &mut Dut<'_>,
     pdo: &Tpdo,
@@ -248,21 +255,29 @@ pub(super) fn timer_gaps(
     wanted: u64,
     shown: &str,
 ) -> Checked {
-    let is_right = |gap: u64, is_same: bool, slack: u64| {
-        let off = wanted / 10 + slack;
-        gap <= wanted + off && (!is_same || gap + off >= wanted)
-    };
-    middle_gap(dut, pdo, count, is_right, shown)
+    let all = gaps_between(dut, pdo, count, shown)?;
+    let (middle, is_same) = all[all.len() / 2];
+    let longest = all.last().map_or(0, |(gap, _)| *gap);
+    let off = wanted / 10 + dut.rig.slack();
+    ensure(
+        middle <= wanted + off && (!is_same || middle + off >= wanted),
+        format!("a TPDO {shown}"),
+        format!("they came every {}.{:03} ms", middle / 1000, middle % 1000),
+    )?;
+    ensure(
+        longest < 2 * wanted - wanted / 10,
+        format!("a TPDO {shown}, and none missing"),
+        format!("one came after {} ms", longest / 1000),
+    )
 }
 
-/// The gaps between TPDOs, and whether the second of both has the same bytes as the first; the median has to be right.
-fn middle_gap(
+/// The gaps between TPDOs, in order of their length, and whether both have the same bytes.
+fn gaps_between(
     dut: &mut Dut<'_>,
     pdo: &Tpdo,
     count: usize,
-    is_right: impl Fn(u64, bool, u64) -> bool,
     shown: &str,
-) -> Checked {
+) -> Checked<Vec<(u64, bool)>> {
     dut.nmt(Command::Start)?;
     let mut last: Option<Heard> = None;
     let mut all = Vec::new();
@@ -280,10 +295,5 @@ fn middle_gap(
         }
     }
     all.sort_unstable();
-    let (middle, is_same) = all[all.len() / 2];
-    ensure(
-        is_right(middle, is_same, dut.rig.slack()),
-        format!("a TPDO {shown}"),
-        format!("they came every {}.{:03} ms", middle / 1000, middle % 1000),
-    )
+    Ok(all)
 }
