@@ -73,3 +73,21 @@ pub(crate) fn sentence(words: Words) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    const GERMAN: &str = include_str!("../web/src/texts/de/words.ts");
+
+    #[test]
+    fn every_text_of_an_error_code_is_in_the_german_catalogue() {
+        for code in 0..=u16::MAX {
+            for profile in [None, Some(402)] {
+                let text = od_wire::emcy::text(profile, code);
+                let is_there = [format!("\n  '{text}': '"), format!("\n  {text}: '")]
+                    .iter()
+                    .any(|line| GERMAN.contains(line));
+                assert!(is_there, "{code:04X}h: {text}");
+            }
+        }
+    }
+}

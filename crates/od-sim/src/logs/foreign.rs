@@ -80,6 +80,17 @@ const BINARIES: [(&[u8], &str, &str); 2] = [
     ),
 ];
 
+/// Returns whether a line in lower case is one of a BUSMASTER log, whose head is often not pasted:
+/// `17:02:30:4711 rx 1 0x27f s 8 …`.
+fn is_busmaster(line: &str) -> bool {
+    let words: Vec<&str> = line.split_whitespace().take(5).collect();
+    let [time, "rx" | "tx", _, id, "s" | "x" | "sr" | "xr"] = words[..] else {
+        return false;
+    };
+    let numbers = || time.split(':').map(str::parse::<u32>);
+    numbers().count() == 4 && numbers().all(|one| one.is_ok()) && id.starts_with("0x")
+}
+
 /// Returns what a file is and how to convert it, if it is a known log that odkit does not read.
 pub(super) fn name(bytes: &[u8]) -> Option<String> {
     let said = |name, way| format!("it is {name}, which odkit does not read; {way}");
@@ -92,7 +103,9 @@ pub(super) fn name(bytes: &[u8]) -> Option<String> {
     let mut known = lines.filter_map(|line| {
         let is_one = |(start, ..): &&(&str, _, _)| line.trim_start().starts_with(start);
         let has = |(word, ..): &&(&str, _, _)| line.contains(word);
-        TEXTS.iter().find(is_one).or_else(|| WORDS.iter().find(has))
+        let part = is_busmaster(line).then_some(&TEXTS[0]);
+        let known = TEXTS.iter().find(is_one);
+        known.or_else(|| WORDS.iter().find(has)).or(part)
     });
     known.next().map(|(_, name, way)| said(name, way))
 }

@@ -26,8 +26,8 @@ pub(crate) use control::command_text as command;
 pub(crate) use emcy::text_of as emcy_text;
 pub use fields::{Field, fields};
 pub use pdo::layout;
-pub(crate) use said::plural;
 pub use said::{Service, Words};
+pub(crate) use said::{bytes, plural};
 pub use tag::{TAGS, Tag, tag};
 pub(crate) use value::show as value_text;
 

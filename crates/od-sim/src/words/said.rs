@@ -84,6 +84,12 @@ impl Words {
         self
     }
 
+    /// Adds a remark to the text.
+    pub(super) fn remark(mut self, remark: &str) -> Self {
+        self.text.push_str(remark);
+        self
+    }
+
     pub(super) fn error(mut self) -> Self {
         self.error = true;
         self
@@ -100,7 +106,7 @@ impl core::fmt::Display for Words {
 }
 
 /// `1 byte`, `2 bytes`.
-pub(super) fn bytes(count: usize) -> String {
+pub(crate) fn bytes(count: usize) -> String {
     plural(count, "byte")
 }
 

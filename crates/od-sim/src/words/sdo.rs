@@ -63,7 +63,7 @@ pub(super) fn explain(
     if !is_in_segments {
         explainer.transfer.data.clear();
     }
-    match message {
+    let words = match message {
         Some(Message::Request(request)) => explainer.request(request, frame),
         Some(Message::Response(response)) => explainer.answer(response, frame),
         Some(Message::Segment {
@@ -73,11 +73,16 @@ pub(super) fn explain(
             let name = explainer.current();
             explainer.words(format!("{which} {number} of a block of {name}"))
         }
-        None => {
-            let text = format!("{}, but an SDO message has 8", bytes(frame.dlc().into()));
-            explainer.words(&text).error()
-        }
+        None => explainer.words(""),
+    };
+    if frame.dlc() == 8 {
+        return words;
     }
+    let before = if words.text.is_empty() { "" } else { ": " };
+    let count = bytes(frame.dlc().into());
+    words
+        .remark(&format!("{before}{count}, but an SDO message has 8"))
+        .error()
 }
 
 impl Explainer<'_> {

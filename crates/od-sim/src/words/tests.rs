@@ -107,6 +107,10 @@ fn frames_are_described_in_words() {
             ("000#77", "NMT: command not defined in CiA 301"),
             ("601#40", "SDO node 1: 1 byte, but an SDO message has 8"),
             (
+                "601#40001000",
+                "SDO node 1: read 1000h Device type: 4 bytes, but an SDO message has 8",
+            ),
+            (
                 "581#430010",
                 "SDO node 1: 3 bytes, but an SDO message has 8",
             ),

@@ -3,9 +3,12 @@
 use std::format;
 use std::prelude::v1::*;
 
+use od_wire::Frame;
+
 use crate::diagnose::facts::{Exchange, Facts, Node, Outcome, after, from, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
+use crate::words::bytes;
 
 pub(super) const RULE: Rule = Rule {
     name: "sdo-timeout",
@@ -60,6 +63,17 @@ fn is_failed(facts: &Facts<'_>, one: &Exchange) -> bool {
     }
 }
 
+/// Returns whether a frame on the CAN-ID of requests is one that only a server sends: with a value in it, or a confirmation
+/// that names an object (CiA 301, 7.2.4.3).
+fn is_response(frame: &Frame) -> bool {
+    let [command, low, high, sub, value @ ..] = *frame.bytes();
+    match command >> 5 {
+        2 => command & 0x1F != 0 || value != [0; 4],
+        3 => [low, high, sub] != [0; 3],
+        _ => false,
+    }
+}
+
 fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Option<Incident> {
     let (first, last) = (group.first()?, group.last()?);
     let count = group.len();
@@ -72,7 +86,7 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
         }
     );
     let mut later = after(&node.exchanges, last.request.at).iter();
-    let is_over = later.any(|one| !is_failed(facts, one));
+    let is_over = later.any(|one| matches!(one.outcome, Outcome::Answered | Outcome::Refused(_)));
     let late = group.iter().find_map(|one| Some((one, one.extra.first()?)));
     let other = group.iter().find(|one| one.outcome == Outcome::Other);
     let is_known = !node.sent.is_empty();
@@ -81,7 +95,32 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
     let begin = first.request.at;
     let soon = last.end.at.plus_micros(1_000_000);
     let is_alive = !from(until(&node.sent, soon), begin).is_empty();
-    let cause = if other.is_some() {
+    let requests = || {
+        group
+            .iter()
+            .filter_map(|one| facts.frame(one.request.place))
+    };
+    let shortest = requests().map(|frame| frame.dlc()).min().unwrap_or(8);
+    let cause = if requests().any(is_response) {
+        Cause::new(
+            "response-on-request-id",
+            format!(
+                "node {id} sends its responses on {:X}h, the CAN-ID of requests; its client waits for {:X}h",
+                0x600 + u16::from(id),
+                0x580 + u16::from(id)
+            ),
+            format!("1200h of node {id} and the CAN-ID that its firmware sends with"),
+        )
+    } else if shortest < 8 {
+        Cause::new(
+            "short-request",
+            format!(
+                "a request has {}, but an SDO message has 8, and many servers ignore a shorter one",
+                bytes(shortest.into())
+            ),
+            "the number of bytes that the client sends; bytes without a meaning are 0",
+        )
+    } else if other.is_some() {
         Cause::new(
             "other-response",
             format!(

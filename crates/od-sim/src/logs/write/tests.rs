@@ -178,6 +178,10 @@ fn an_unreadable_log_is_an_error_that_names_it() {
             "it is a BUSMASTER log",
         ),
         (
+            b"17:02:30:4711 Rx 1 0x27F s 8 20 F4 6C 11 00 20 01 00 \n17:02:31:3601 Rx 1 0x720 s 1 7F \n",
+            "it is a BUSMASTER log",
+        ),
+        (
             b"SQLite format 3\0",
             "it is a database, such as python-can writes",
         ),
