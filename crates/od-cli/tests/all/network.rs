@@ -468,8 +468,8 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
             "line 3: `Node3DCFNam` is not a name of a node list; write `Node3DCFName`",
         ),
         (
-            "\n[Topolgy]\nNodes=0\n",
-            "line 2: `Topolgy` is not a name of a node list; write `Topology`",
+            "\n[Tropology]\nNodes=0\n",
+            "line 2: `Tropology` is not a name of a node list; write `Topology`",
         ),
         (
             "[Topology]\nNode3DCFName=none.dcf\n",

@@ -320,10 +320,10 @@ fn attributes_of_a_parameter_are_those_of_the_schema() {
     };
     for (inside, expected) in [
         (
-            "<defaultValue valeu=\"0\"/>",
+            "<defaultValue values=\"0\"/>",
             &[
                 "attribute value of defaultValue is missing",
-                "`valeu` is not an attribute of CiA 311 for this element",
+                "`values` is not an attribute of CiA 311 for this element",
             ][..],
         ),
         (

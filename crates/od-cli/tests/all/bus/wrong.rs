@@ -92,14 +92,17 @@ fn an_object_whose_transfer_fails_is_in_the_output_and_in_the_exit_code() {
 }
 
 #[test]
-fn a_text_without_end_ends_at_its_limit() {
+fn a_value_without_end_ends_at_the_limit_of_its_type() {
     let link = adapter();
-    let get = ["get", "5", "1000h", "A100h", "--link", &link];
+    let eds = "[DeviceInfo]\nProductName=Endless\n[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n\
+        [A100]\nParameterName=Counter\nDataType=7\nAccessType=ro\n";
+    let eds = file("endless.eds", eds).display().to_string();
+    let get = ["get", "5", "1000h", "A100h", "--eds", &eds, "--link", &link];
     let text = odkit(&get, "");
     assert_eq!(text.code, 1, "{}", text.err);
     let lines: Vec<&str> = text.out.lines().collect();
     assert!(
-        matches!(lines[..], [_, name] if name.contains("A100h") && name.contains("longer than 1048576 bytes")),
+        matches!(lines[..], [_, counter] if counter.contains("A100h") && counter.contains("longer than its type, UNSIGNED32")),
         "{}",
         text.out
     );
