@@ -4,8 +4,8 @@ use od_model::{Address, CanIdOwner, CobIdService, Entry, values};
 use od_wire::nmt::Command;
 use od_wire::{AbortCode, CanId, CobId, Frame, NodeId};
 
+use super::each_tpdo::on_each;
 use super::lss::renumber;
-use super::tpdos::on_each;
 use super::transmit::{Tpdo, learn_sync, timed_on};
 use crate::bench::OnBench;
 use crate::conform::dut::{Dut, QUIET, is_data};

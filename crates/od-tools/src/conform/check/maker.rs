@@ -4,7 +4,7 @@
 use od_model::{Address, values};
 use od_wire::nmt::Command;
 
-use super::tpdos::on_each;
+use super::each_tpdo::on_each;
 use super::transmit::timed_on;
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};

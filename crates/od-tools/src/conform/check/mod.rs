@@ -4,6 +4,8 @@ mod arrival;
 mod block;
 mod cob_ids;
 mod drive;
+mod each_rpdo;
+mod each_tpdo;
 mod emergency;
 mod encoder;
 mod file;
@@ -19,13 +21,11 @@ mod nmt;
 mod objects;
 mod outputs;
 mod rpdo;
-mod rpdos;
 mod segments;
 mod states;
 mod store;
 mod sync;
 mod tpdo;
-mod tpdos;
 mod transfer;
 mod transmit;
 
@@ -398,7 +398,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.37: The inhibit time of a valid TPDO cannot be changed.").applies("tpdo"),
         check("tpdo-start-value-fixed", tpdo::start_value_fixed,
             "CiA 301 7.5.2.37: The SYNC start value of a valid TPDO cannot be changed.").applies("tpdo"),
-        check("tpdo-each", tpdos::each,
+        check("tpdo-each", each_tpdo::each,
             "CiA 301 7.5.2.37: Every TPDO has its CAN-ID, the length of its mapping, its event timer and its inhibit time, and bit 31 disables it.").applies("tpdo"),
         check("tpdo-reset", tpdo::over_reset,
             "CiA 301 7.3.2.2.1: After reset communication the event timer is what sub-index 5 says then.").applies("tpdo").needs("reset"),
@@ -452,7 +452,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.35: Without bit 29 of its COB-ID an RPDO ignores a frame with the same number of 29 bits.").applies("rpdo").needs("reset"),
         check("rpdo-reserved-types", rpdo::reserved_types,
             "CiA 301 7.5.2.35: Transmission types 241 to 253 are refused with 06090030h.").applies("rpdo"),
-        check("rpdo-each", rpdos::each,
+        check("rpdo-each", each_rpdo::each,
             "CiA 301 7.5.2.35: Every RPDO writes its mapped objects in Operational, with the next SYNC if it is synchronous, none with bit 31 and none if it is too short.").applies("rpdo").needs("reset"),
         check("rpdo-mapping-procedure", rpdo::mapping_procedure,
             "CiA 301 7.5.2.36: A mapping of an RPDO is written by the procedure of CiA 301.").applies("rpdo"),
@@ -478,11 +478,11 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.36: An object that cannot be mapped is refused by an RPDO with 06040041h.").applies("rpdo"),
         check("rpdo-dummy", rpdo::dummy,
             "CiA 301 7.5.2.36: A dummy of an RPDO takes its bits of the frame and writes nothing.").applies("rpdo").needs("reset"),
-        check("rpdo-mapping-full", rpdos::full,
+        check("rpdo-mapping-full", each_rpdo::full,
             "CiA 301 7.5.2.36: Each RPDO writes the objects of a mapping that is as long as possible.").applies("rpdo").needs("reset"),
-        check("rpdo-after-reset", rpdos::after_reset,
+        check("rpdo-after-reset", each_rpdo::after_reset,
             "CiA 301 7.3.2.2.1: The first RPDOs after a reset write their objects.").applies("rpdo").needs("reset"),
-        check("rpdo-time-out", rpdos::time_out,
+        check("rpdo-time-out", each_rpdo::time_out,
             "CiA 301 7.5.2.35: An RPDO that does not come again within its event timer causes EMCY 8250h, and none before the first one.").applies("rpdo, 1014h").needs("reset"),
     ]),
     ("SYNC", &[

@@ -4,9 +4,9 @@ use od_model::{Address, Entry, values};
 use od_wire::nmt::Command;
 use od_wire::{CanId, CobId, Frame};
 
+use super::each_rpdo::{NEEDS_MOTION, has_sound_mapping, outputs, takes, with_another};
 use super::heartbeat::{beat, emcy, sends_emcy, watch};
 use super::mapping::{self, DUMMY, each_refuses, on, raw};
-use super::rpdos::{NEEDS_MOTION, has_sound_mapping, outputs, takes, with_another};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::{Dut, FREE};

@@ -4,7 +4,7 @@ use od_model::Address;
 use od_wire::nmt::Command;
 use od_wire::{CanId, CobId, Frame};
 
-use super::tpdos::on_each;
+use super::each_tpdo::on_each;
 use super::transmit::{Tpdo, learn_sync, sync, typed, typed_on};
 use crate::conform::dut::{Dut, FREE, QUIET};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};

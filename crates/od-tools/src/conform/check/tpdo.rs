@@ -7,7 +7,7 @@ use od_wire::AbortCode::{ValueRange, ValueTooHigh};
 use od_wire::nmt::Command;
 use od_wire::{CanId, CobId};
 
-use super::tpdos::on_each;
+use super::each_tpdo::on_each;
 use super::transmit::{
     Mapped, Tpdo, contradiction, first, gaps, is_on, learn_sync, mapping, next, none,
     starts_silent, sync, timed, timed_on, timer_gaps, typed, typed_on,
