@@ -347,10 +347,13 @@ pub(super) fn bit_rates(dut: &mut Dut<'_>) -> Checked {
         }
         Ok(())
     });
+    let has_none = done.is_ok() && !any && named.contains(&true);
+    if has_none {
+        dut.faults.clear();
+    }
     dut.reset(Command::ResetNode)?;
     done?;
-    if !any && named.contains(&true) {
-        dut.faults.clear();
+    if has_none {
         return lacks("the node refuses every bit rate by LSS");
     }
     Ok(())
@@ -420,6 +423,15 @@ pub(super) fn global_silent(dut: &mut Dut<'_>) -> Checked {
     let answer = ask(dut, timing)?;
     waiting(dut)?;
     silent?;
+    // A slave without this service is silent after a selection, too.
+    if answer.is_none() {
+        configured(dut)?;
+        let selected = ask(dut, timing)?;
+        waiting(dut)?;
+        if selected.is_none() {
+            return lacks("the node does not respond to configure bit timing");
+        }
+    }
     ensure(
         matches!(answer, Some([0x13, ..])),
         "LSS response 13, as the node is in the configuration state after switch state global",
