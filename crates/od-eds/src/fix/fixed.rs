@@ -76,8 +76,9 @@ impl fmt::Display for Why {
 
 /// Applies the fixes of a document up to `level`; `find` returns its findings.
 ///
-/// A second run changes nothing, unless a rule has too many findings to show all of them. Every line without an edit keeps its bytes. A fix that
-/// would add an error, or that would not remove its finding, is left out; the others are applied.
+/// A second run changes nothing, unless a rule has more than 10,000 findings: then each run makes a part of its fixes. Every
+/// line without an edit keeps its bytes. A fix that would add an error, or that would not remove its finding, is left out;
+/// the others are applied.
 pub fn fix(
     document: &Document,
     level: Applicability,

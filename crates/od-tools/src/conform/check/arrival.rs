@@ -319,65 +319,44 @@ const AT_ONCE: u64 = 100_000;
 /// Quick stop stops an axis on its way to a target position, too.
 pub(super) fn quick_stop_position(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_POSITION, |dut, axis| {
-        if !axis.has(dut, 0x606C) || !dut.eds.writes(0x6081 + axis.0, 0) {
-            return lacks("the drive does not have 606Ch and 6081h rw");
-        }
-        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
-        let pace = axis.pace(dut)?;
-        axis.set(dut, 0x6081, pace)?;
-        // Five seconds and more.
-        let target = from + way.max(5 * pace);
-        axis.set_point(dut, target, 0)?;
-        let near = axis.window(dut, 0x606D)?.max(pace / 10);
-        axis.comes_to(
-            dut,
-            0x606C,
-            pace,
-            near,
-            "on the way, with this value in 6081h",
-        )?;
-        axis.command(dut, 2)?;
-        let window = axis.standing(dut)?;
-        let when = "after quick stop on the way to a target position";
-        axis.comes_to(dut, 0x606C, 0, window, when)?;
-        let place = axis.value(dut, 0x6064)?;
-        ensure(
-            (place - target).abs() > axis.window(dut, 0x6067)?,
-            format!("{} before {target} after quick stop", axis.at(0x6064)),
-            format!("{place} was read"),
-        )
+        stops_on_its_way(dut, axis, 2, "quick stop")
     })
 }
 
 /// Halt stops an axis on its way to a target position, too.
 pub(super) fn halt_position(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_POSITION, |dut, axis| {
-        if !axis.has(dut, 0x606C) || !dut.eds.writes(0x6081 + axis.0, 0) {
-            return lacks("the drive does not have 606Ch and 6081h rw");
-        }
-        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
-        let pace = axis.pace(dut)?;
-        axis.set(dut, 0x6081, pace)?;
-        // Five seconds and more.
-        let target = from + way.max(5 * pace);
-        axis.set_point(dut, target, 0)?;
-        let near = axis.window(dut, 0x606D)?.max(pace / 10);
-        axis.comes_to(
-            dut,
-            0x606C,
-            pace,
-            near,
-            "on the way, with this value in 6081h",
-        )?;
-        axis.command(dut, ENABLE | HALT)?;
-        let window = axis.standing(dut)?;
-        let when = "after halt, bit 8 of 6040h, on the way to a target position";
-        axis.comes_to(dut, 0x606C, 0, window, when)?;
-        let place = axis.value(dut, 0x6064)?;
-        ensure(
-            (place - target).abs() > axis.window(dut, 0x6067)?,
-            format!("{} before {target} after halt", axis.at(0x6064)),
-            format!("{place} was read"),
-        )
+        stops_on_its_way(dut, axis, ENABLE | HALT, "halt (bit 8 of 6040h)")
     })
+}
+
+/// Tests that a controlword stops an axis before its target position; `name` is that of the command.
+fn stops_on_its_way(dut: &mut Dut<'_>, axis: Axis, controlword: u16, name: &str) -> Checked {
+    if !axis.has(dut, 0x606C) || !dut.eds.writes(0x6081 + axis.0, 0) {
+        return lacks("the drive does not have 606Ch and 6081h rw");
+    }
+    let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+    let pace = axis.pace(dut)?;
+    axis.set(dut, 0x6081, pace)?;
+    // Five seconds and more.
+    let target = from + way.max(5 * pace);
+    axis.set_point(dut, target, 0)?;
+    let near = axis.window(dut, 0x606D)?.max(pace / 10);
+    axis.comes_to(
+        dut,
+        0x606C,
+        pace,
+        near,
+        "on the way, with this value in 6081h",
+    )?;
+    axis.command(dut, controlword)?;
+    let window = axis.standing(dut)?;
+    let when = format!("after {name} on the way to a target position");
+    axis.comes_to(dut, 0x606C, 0, window, &when)?;
+    let place = axis.value(dut, 0x6064)?;
+    ensure(
+        (place - target).abs() > axis.window(dut, 0x6067)?,
+        format!("{} before {target} after {name}", axis.at(0x6064)),
+        format!("{place} was read"),
+    )
 }

@@ -308,24 +308,31 @@ pub(super) fn with_another(dut: &Dut<'_>, map: u16, all: &[Entry], first: &Entry
         .collect()
 }
 
+/// The valid RPDOs whose mapping the EDS allows.
+fn valid(dut: &mut Dut<'_>) -> Checked<Vec<Tpdo>> {
+    let mut found = Vec::new();
+    for number in dut.eds.pdos(0x1400) {
+        let com = 0x1400 + number;
+        let cob_id = dut.number(com, 1)? as u32;
+        if is_on(cob_id) && has_sound_mapping(dut, com)? {
+            found.push(Tpdo { com, cob_id });
+        }
+    }
+    Ok(found)
+}
+
 /// Every valid RPDO writes the objects of its mapping; one without a mapping gets one.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let all = outputs(dut)?;
     let mut any = false;
-    for number in dut.eds.pdos(0x1400) {
-        let com = 0x1400 + number;
-        let cob_id = dut.number(com, 1)? as u32;
-        if !is_on(cob_id) || !has_sound_mapping(dut, com)? {
-            continue;
-        }
-        let now = mapping(dut, com + 0x200)?;
+    for pdo in valid(dut)? {
+        let now = mapping(dut, pdo.map())?;
         let own = now.first().map(|mapped| mapped.address);
         let own = all.iter().find(|entry| Some(entry.address) == own);
         let Some(entry) = own.or_else(|| all.first()) else {
             return lacks("no object can be mapped");
         };
-        let pdo = Tpdo { com, cob_id };
         let entries = with_another(dut, pdo.map(), &all, entry);
         let done = on(dut, pdo, |dut, map| {
             takes(dut, &pdo, map, &entries)?;
@@ -350,13 +357,7 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
     let all = outputs(dut)?;
     let mut any = false;
-    for number in dut.eds.pdos(0x1400) {
-        let com = 0x1400 + number;
-        let cob_id = dut.number(com, 1)? as u32;
-        if !is_on(cob_id) || !has_sound_mapping(dut, com)? {
-            continue;
-        }
-        let pdo = Tpdo { com, cob_id };
+    for pdo in valid(dut)? {
         let [_, once] = super::kept::fillings(dut, pdo.map());
         let is_output = |raw: &u32| {
             let address = Address::new((raw >> 16) as u16, (raw >> 8) as u8);
@@ -383,16 +384,13 @@ pub(super) fn after_reset(dut: &mut Dut<'_>) -> Checked {
     let mut any = false;
     for command in [Command::ResetNode, Command::ResetCommunication] {
         dut.reset(command)?;
-        for number in dut.eds.pdos(0x1400) {
-            let com = 0x1400 + number;
-            let cob_id = dut.number(com, 1)? as u32;
-            let all = mapping(dut, com + 0x200)?;
+        for pdo in valid(dut)? {
+            let all = mapping(dut, pdo.map())?;
             let is_output = |address| outputs.iter().any(|entry| entry.address == address);
             let is_seen = !all.is_empty() && all.iter().all(|one| is_output(one.address));
-            if !is_on(cob_id) || !is_seen || !has_sound_mapping(dut, com)? {
+            if !is_seen {
                 continue;
             }
-            let pdo = Tpdo { com, cob_id };
             let kept = dut.undo.len();
             dut.keep(pdo.address(2))?;
             if dut.download(pdo.address(2), &[255])?.is_err() {
@@ -403,7 +401,7 @@ pub(super) fn after_reset(dut: &mut Dut<'_>) -> Checked {
             let changed = Changed::of(dut, &entries)?;
             for _ in 0..2 {
                 changed.send(dut, &pdo)?;
-                let why = format!(", as RPDO{} has it after a reset", com - 0x13FF);
+                let why = format!(", as RPDO{} has it after a reset", pdo.com - 0x13FF);
                 let done = changed.holds(dut, true, &why);
                 dut.fault(done)?;
                 changed.reset(dut)?;
@@ -421,18 +419,14 @@ pub(super) fn time_out(dut: &mut Dut<'_>) -> Checked {
     const MILLIS: u16 = 200;
     sends_emcy(dut)?;
     let mut any = false;
-    for number in dut.eds.pdos(0x1400) {
-        let com = 0x1400 + number;
-        let cob_id = dut.number(com, 1)? as u32;
-        let all = mapping(dut, com + 0x200)?;
+    for pdo in valid(dut)? {
+        let all = mapping(dut, pdo.map())?;
         let is_held = !dut.may_move && all.iter().any(|one| dut.eds.moves(one.address));
-        let is_sound = contradiction(dut.eds, &all, false).is_none();
-        if !is_on(cob_id) || !is_sound || is_held || all.is_empty() || !dut.eds.writes(com, 5) {
+        if is_held || all.is_empty() || !dut.eds.writes(pdo.com, 5) {
             continue;
         }
         any = true;
         let entries: Vec<u32> = all.iter().map(super::transmit::Mapped::raw).collect();
-        let pdo = Tpdo { com, cob_id };
         dut.set(pdo.address(5), &MILLIS.to_le_bytes())?;
         let changed = Changed::of(dut, &entries)?;
         let done = is_in_time(dut, &pdo, &changed, MILLIS);

@@ -126,7 +126,7 @@ pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
         typed_on(dut, pdo, 0)?;
         starts_silent(dut, pdo)?;
         none(dut, pdo, 300_000, "no TPDO without SYNC")?;
-        // A TPDO of this type also needs an event, and without a change of its value there is none.
+        // After SYNC, a TPDO of type 0 is sent only if an event came before; a value that stays the same is no event.
         let (mut last, mut same) = (None, 0);
         for _ in 0..SYNCS {
             sync(dut)?;
