@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use od_model::{Dictionary, Visible};
 use od_runtime::NodeId;
-use od_sim::diagnose::{BusFacts, Incident, diagnose};
+use od_sim::diagnose::{BusFacts, Incident, diagnose, rules_with_times};
 use od_sim::logs::{Record, What};
 use od_tools::Error;
 use od_tools::interrupt::Interruptible;
 use od_tools::link::Link;
 use od_tools::links;
+use od_wire::Instant;
 use serde_json::{Value, json};
 
 use crate::bus;
@@ -115,9 +116,11 @@ fn read(path: &Path) -> Result<Vec<Record>, Failure> {
     let shown = path.display();
     let log = read_log(path)?;
     if log.lacks_times {
-        return Err(Failure::Failed(format!(
-            "{shown}: the log has no times, and a diagnosis needs them; record it with `candump -L`"
-        )));
+        let left_out: Vec<&str> = rules_with_times().collect();
+        note!(
+            "{shown}: the log has no times, so these rules cannot look at it: {}; `candump -L` records times",
+            left_out.join(", ")
+        );
     }
     Ok(log.records)
 }
@@ -157,14 +160,15 @@ fn lines(args: &Args, records: &[Record]) -> Result<Vec<String>, Failure> {
 
 fn summary(name: &str, records: &[Record], incidents: &[Incident]) -> String {
     let length = match records {
-        [first, .., last] => last.at.micros_since(first.at),
-        _ => 0,
+        [first, .., last] if first.at < last.at => {
+            format!(" and {:.1} s", last.at.micros_since(first.at) as f64 / 1e6)
+        }
+        _ => String::new(),
     };
     format!(
-        "{name}: {} in {} and {:.1} s",
+        "{name}: {} in {}{length}",
         plural(incidents.len(), "incident"),
         plural_of(records.len(), "record", "records"),
-        length as f64 / 1e6
     )
 }
 
@@ -218,12 +222,13 @@ fn in_json(incident: &Incident, lines: &[String]) -> Value {
         .iter()
         .map(|place| json!({ "record": place, "text": lines.get(*place).map(|line| line.trim()) }))
         .collect();
+    let time = |at: Instant| incident.has_times.then_some(at.as_micros());
     json!({
         "rule": incident.rule,
         "text": incident.text,
         "nodes": incident.nodes,
-        "begin_us": incident.begin.as_micros(),
-        "end_us": incident.end.as_micros(),
+        "begin_us": time(incident.begin),
+        "end_us": time(incident.end),
         "recovered": incident.recovered,
         "causes": causes,
         "frames": frames,

@@ -250,13 +250,106 @@ fn the_command_shows_causes_and_sets_the_exit_code() {
         "{}",
         markdown.out
     );
-    let untimed = odkit(&["diagnose", "-"], "  can0  701   [1]  00\n");
-    assert_eq!(untimed.code, 1);
+    let untimed = "  can0  602   [8]  40 00 10 00 00 00 00 00\n\
+                   \x20 can0  582   [8]  80 00 10 00 00 00 02 06\n\
+                   \x20 can0  082   [8]  10 42 09 00 00 00 00 00\n";
+    let run = |more: &[&str]| odkit(&[&["diagnose", "-"], more].concat(), untimed);
+    let text = run(&[]);
+    assert_eq!(text.code, 0, "{}", text.err);
+    for part in [
+        "1 incident in 3 records\n",
+        "node 2 reports 4210h",
+        "   not recovered\n",
+    ] {
+        assert!(text.out.contains(part), "{part}\n{}", text.out);
+    }
+    for part in ["the log has no times", "bus-load", "`candump -L` records"] {
+        assert!(text.err.contains(part), "{part}\n{}", text.err);
+    }
+    let json = run(&["--format", "json"]);
+    let json: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
     assert!(
-        untimed.err.contains("record it with `candump -L`"),
-        "{}",
-        untimed.err
+        json["logs"][0]["incidents"][0]["begin_us"].is_null(),
+        "{json}"
     );
+}
+
+/// The log of a case as `candump` prints it without an option: frames in their order, without times.
+fn without_times(case: &Case<'_>) -> Vec<Incident> {
+    let mut records = log(case);
+    for record in &mut records {
+        record.at = Instant::ZERO;
+    }
+    diagnose(&records, BusFacts::default())
+}
+
+/// A fault that only times show stays unseen; a fault that is found has its cause.
+#[test]
+fn without_times_the_order_of_the_frames_shows_a_fault_or_nothing() {
+    let (mut found, mut wrong) = (0, Vec::new());
+    let all = cases(FAULTS);
+    for case in &all {
+        let (wanted, _) = case.title.split_once(": ").expect("a cause");
+        let incidents = without_times(case);
+        found += usize::from(!incidents.is_empty());
+        for incident in incidents {
+            let ids: Vec<&str> = incident.causes.iter().map(|cause| cause.id).collect();
+            // The sign of a fault that needs times, without its cause.
+            let is_sign = matches!(ids[0], "error-control" | "other-response");
+            if !is_sign && !ids[..ids.len().min(2)].contains(&wanted) {
+                wrong.push(format!("{}: {} {ids:?}", case.title, incident.text));
+            }
+            assert!(!incident.span().contains(" to "), "{}", incident.span());
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(found * 10 >= all.len() * 6, "{found} of {}", all.len());
+    let healthy = cases(HEALTHY).into_iter();
+    let wrong: Vec<(&str, String)> = healthy
+        .flat_map(|case| {
+            without_times(&case)
+                .into_iter()
+                .map(move |one| (case.title, one.text))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// A client that repeats its request gets two responses, and the node is one.
+#[test]
+fn a_repeated_request_with_two_responses_has_a_late_response() {
+    let late = [
+        (0, "605#4000100000000000"),
+        (200_000, "605#4000100000000000"),
+        (250_000, "585#4300100096010200"),
+        (260_000, "585#4300100096010200"),
+    ];
+    for has_times in [true, false] {
+        let records = late.map(|(at, text)| {
+            let frame = parse_frame(text).expect("a frame");
+            record(at * u64::from(has_times), What::Frame(frame))
+        });
+        let found = diagnose(&records, BusFacts::default());
+        let causes = found.iter().flat_map(|one| &one.causes);
+        let causes: Vec<(&str, &str)> = causes.map(|one| (one.id, &*one.text)).collect();
+        let after = if has_times {
+            "node 5 responds after 250 ms, and the client waits for 200 ms"
+        } else {
+            "node 5 responds only after the client has given up"
+        };
+        assert_eq!(causes, [("late-response", after)]);
+    }
+}
+
+/// Heartbeats and PDOs in an even order are no two senders: without times their distance is not known.
+#[test]
+fn without_times_an_uneven_order_of_frames_is_no_fault() {
+    let frames = ["705#05", "185#0102", "705#05", "186#01", "187#01", "188#01"];
+    let records = frames.iter().cycle().take(600);
+    let records: Vec<Record> = records
+        .map(|text| record(0, What::Frame(parse_frame(text).expect("a frame"))))
+        .collect();
+    assert_eq!(diagnose(&records, BusFacts::default()), []);
 }
 
 #[test]

@@ -13,6 +13,8 @@ use crate::wire::bits::bits;
 
 /// Window in which the load is measured, in microseconds.
 pub(super) const WINDOW: u64 = 100_000;
+/// Distance of the records of a log without times, in microseconds.
+const STEP: u64 = 1000;
 /// Bit rates of CiA 301 in kbit/s.
 const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
 
@@ -158,6 +160,8 @@ pub(super) struct Facts<'a> {
     pub(super) begin: Instant,
     pub(super) end: Instant,
     pub(super) records: &'a [Record],
+    /// Whether the times are those of the bus; otherwise they are a [`STEP`] apart, and only their order counts.
+    pub(super) has_times: bool,
     pub(super) errors: Vec<Seen>,
     /// Frames, without error frames.
     pub(super) frames: Vec<Seen>,
@@ -178,10 +182,24 @@ pub(super) struct Facts<'a> {
 
 impl<'a> Facts<'a> {
     pub(super) fn of(records: &'a [Record], known: BusFacts<'a>) -> Self {
+        let has_times = !matches!(records, [first, .., last] if first.at == last.at);
+        let time = |place: usize, record: &Record| {
+            if has_times {
+                record.at
+            } else {
+                Instant::from_micros(place as u64 * STEP)
+            }
+        };
+        let last = records.len().saturating_sub(1);
         let mut facts = Self {
-            begin: records.first().map_or(Instant::ZERO, |record| record.at),
-            end: records.last().map_or(Instant::ZERO, |record| record.at),
+            begin: records
+                .first()
+                .map_or(Instant::ZERO, |first| time(0, first)),
+            end: records
+                .last()
+                .map_or(Instant::ZERO, |record| time(last, record)),
             records,
+            has_times,
             errors: Vec::new(),
             frames: Vec::new(),
             nodes: BTreeMap::new(),
@@ -196,15 +214,15 @@ impl<'a> Facts<'a> {
         let mut lengths = Vec::new();
         for (place, record) in records.iter().enumerate() {
             let seen = Seen {
-                at: record.at,
+                at: time(place, record),
                 place,
             };
             match &record.what {
                 What::Error => facts.errors.push(seen),
                 What::Frame(frame) => {
                     let len = bits(frame).len() as u32 + 3;
-                    lengths.push((record.at, len));
-                    let window = (record.at.micros_since(facts.begin) / WINDOW) as usize;
+                    lengths.push((seen.at, len));
+                    let window = (seen.at.micros_since(facts.begin) / WINDOW) as usize;
                     // A log of a year has 315 million windows: only those up to an hour are measured.
                     if window < 36_000 {
                         facts.windows.resize(facts.windows.len().max(window + 1), 0);
@@ -370,8 +388,19 @@ impl Node {
             }
             Message::Response(response) => {
                 if !self.is_pending {
-                    if let Some(last) = self.exchanges.last_mut() {
-                        last.extra.push(seen);
+                    match &mut self.exchanges[..] {
+                        // Of two equal requests, the first response belongs to the first.
+                        [.., one, again]
+                            if one.outcome == Outcome::GaveUp
+                                && one.extra.is_empty()
+                                && one.address == again.address
+                                && one.is_download == again.is_download =>
+                        {
+                            one.extra.push(again.end);
+                            again.end = seen;
+                        }
+                        [.., last] => last.extra.push(seen),
+                        [] => {}
                     }
                     return;
                 }

@@ -34,6 +34,8 @@ pub struct Incident {
     pub text: String,
     /// The nodes that it is about; empty: the whole bus.
     pub nodes: Vec<u8>,
+    /// Whether the log has times; without them begin and end say nothing.
+    pub has_times: bool,
     /// Time of the first sign.
     pub begin: Instant,
     /// Time of the last sign, or of the recovery.
@@ -50,14 +52,19 @@ impl Incident {
     /// Greatest number of records in an incident.
     pub const SHOWN: usize = 8;
 
-    /// Begin, end and whether the bus recovered: `1.500000 to 2.300000, not recovered`, in seconds.
+    /// Begin, end and whether the bus recovered: `1.500000 to 2.300000, not recovered`, in seconds. Without times only the
+    /// last part.
     pub fn span(&self) -> String {
         let state = if self.recovered {
             "recovered"
         } else {
             "not recovered"
         };
-        format!("{:?} to {:?}, {state}", self.begin, self.end)
+        if self.has_times {
+            format!("{:?} to {:?}, {state}", self.begin, self.end)
+        } else {
+            state.into()
+        }
     }
 
     /// The incident as lines of text: what happened, when, each cause with its check, and the records that show it.
@@ -78,6 +85,7 @@ impl Incident {
             rule: "",
             text: text.into(),
             nodes: Vec::new(),
+            has_times: true,
             begin,
             end,
             recovered: false,

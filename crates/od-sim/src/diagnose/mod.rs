@@ -21,18 +21,30 @@ use crate::logs::Record;
 const MOST: usize = 1000;
 
 /// The incidents of a log, in the order of their beginning. A healthy log has none.
+///
+/// If all records have one time, the log has no times, and only the order of its frames is known. Then the rules that
+/// measure times are not used, and the incidents have no times.
 pub fn diagnose<'k>(records: &'k [Record], known: BusFacts<'k>) -> Vec<Incident> {
     let facts = facts::Facts::of(records, known);
-    let found = rules::ALL.iter().flat_map(|rule| {
+    let used = rules::ALL.iter();
+    let used = used.filter(|rule| facts.has_times || !rule.needs_times);
+    let found = used.flat_map(|rule| {
         let mut all = (rule.check)(&facts);
         all.sort_by_key(|incident| incident.begin);
         all.truncate(MOST);
         for incident in &mut all {
             incident.rule = rule.name;
+            incident.has_times = facts.has_times;
         }
         all
     });
     merge::merge(found.collect())
+}
+
+/// Names of the rules that measure times.
+pub fn rules_with_times() -> impl Iterator<Item = &'static str> {
+    let all = rules::ALL.iter().filter(|rule| rule.needs_times);
+    all.map(|rule| rule.name)
 }
 
 /// Names and titles of the rules.

@@ -9,5 +9,7 @@ use super::incident::Incident;
 pub(super) struct Rule {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
+    /// Whether it measures times; in a log without times the other rules know the order of the frames.
+    pub(super) needs_times: bool,
     pub(super) check: fn(&Facts<'_>) -> Vec<Incident>,
 }

@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "bus-load",
     title: "The bus is at its limit",
+    needs_times: true,
     check,
 };
 

@@ -12,6 +12,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "bus-off",
     title: "A node's CAN controller has errors",
+    needs_times: false,
     check,
 };
 

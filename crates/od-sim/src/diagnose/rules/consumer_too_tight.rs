@@ -12,6 +12,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "consumer-too-tight",
     title: "A heartbeat consumer is too tight",
+    needs_times: true,
     check,
 };
 

@@ -12,6 +12,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "emcy",
     title: "A device reports an error",
+    needs_times: false,
     check,
 };
 
@@ -34,16 +35,27 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 .node(*id)
                 .recovered(last.code == 0)
                 .shows(group.iter().map(|emcy| emcy.seen.place))
-                .cause(Cause::new(
-                    "device-error",
-                    format!("the device has an error of its own: {meaning}"),
-                    format!(
-                        "the manual of node {id} for code {:04X}h, and its history 1003h",
-                        first.code
-                    ),
-                )),
+                .cause(cause(*id, first.code, &meaning)),
             );
         }
     }
     found
+}
+
+fn cause(id: u8, code: u16, meaning: &str) -> Cause {
+    match code {
+        // CiA 301, table 26: life guard error or heartbeat error.
+        0x8130 => Cause::new(
+            "error-control",
+            format!("node {id} waited too long for a heartbeat or for a guarding request"),
+            format!(
+                "whether the other node has power; 1016h of node {id} against 1017h of the other, or 100Ch and 100Dh against the master"
+            ),
+        ),
+        _ => Cause::new(
+            "device-error",
+            format!("the device has an error of its own: {meaning}"),
+            format!("the manual of node {id} for code {code:04X}h, and its history 1003h"),
+        ),
+    }
 }

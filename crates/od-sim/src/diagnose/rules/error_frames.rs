@@ -11,6 +11,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "error-frames",
     title: "Error frames",
+    needs_times: false,
     check,
 };
 
@@ -40,10 +41,11 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
             == facts.frames.partition_point(|seen| seen.place < b.place)
     });
     let longest = runs.map(<[Seen]>::len).max().unwrap_or(0);
+    let calm = if facts.has_times { 200_000 } else { 0 };
     let is_over = facts
         .frames
         .last()
-        .is_some_and(|seen| seen.at > end.plus_micros(200_000));
+        .is_some_and(|seen| seen.at > end.plus_micros(calm));
     let text = match (count, good) {
         (1, _) => "1 error frame".to_owned(),
         (_, 1) => format!("{count} error frames and 1 frame between them"),

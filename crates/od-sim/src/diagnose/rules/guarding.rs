@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "guarding",
     title: "Node guarding fails",
+    needs_times: true,
     check,
 };
 

@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "heartbeat-lost",
     title: "A heartbeat stops",
+    needs_times: true,
     check,
 };
 

@@ -12,6 +12,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "inhibit-time",
     title: "A TPDO is held back by its inhibit time",
+    needs_times: true,
     check,
 };
 

@@ -12,6 +12,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "mapping-differs",
     title: "Producer and consumer of a PDO map it otherwise",
+    needs_times: false,
     check,
 };
 

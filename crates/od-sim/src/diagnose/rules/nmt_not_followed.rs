@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "nmt-not-followed",
     title: "A node does not follow a start command",
+    needs_times: false,
     check,
 };
 
@@ -26,7 +27,8 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             if *target != 0 && target != id {
                 continue;
             }
-            let settled = seen.at.plus_micros(SETTLE);
+            let settle = if facts.has_times { SETTLE } else { 0 };
+            let settled = seen.at.plus_micros(settle);
             let next: Vec<_> = from(&node.states, settled).iter().take(3).collect();
             let until = next.last().map_or(facts.end, |(seen, _)| seen.at);
             let later = facts.commands.get(number + 1..).unwrap_or_default().iter();

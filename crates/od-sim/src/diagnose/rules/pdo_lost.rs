@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "pdo-lost",
     title: "A cyclic PDO has gaps",
+    needs_times: true,
     check,
 };
 

@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "reboots",
     title: "A node restarts without a command",
+    needs_times: false,
     check,
 };
 
@@ -72,7 +73,9 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node) -> Option<Incident> {
         .map(|pair| pair[1].at.micros_since(pair[0].at))
         .collect();
     let mean = gaps.iter().sum::<u64>() / (gaps.len().max(1) as u64);
-    let is_regular = gaps.len() >= 2 && gaps.iter().all(|gap| gap.abs_diff(mean) * 10 <= mean);
+    let is_regular = facts.has_times
+        && gaps.len() >= 2
+        && gaps.iter().all(|gap| gap.abs_diff(mean) * 10 <= mean);
     if let Some(emcy) = voltage {
         incident = incident
             .shows([emcy.seen.place])
@@ -108,7 +111,7 @@ fn is_own(facts: &Facts<'_>, id: u8, node: &Node, boot: Seen) -> bool {
 
 /// The frame to the node just before each restart, if there is one.
 fn trigger(facts: &Facts<'_>, own: &[Seen], id: u8) -> Option<String> {
-    if own.len() < 3 {
+    if own.len() < 3 || !facts.has_times {
         return None;
     }
     let requests = &facts.nodes.get(&id)?.exchanges;

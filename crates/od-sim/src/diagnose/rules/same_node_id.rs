@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "same-node-id",
     title: "Two nodes with one node ID",
+    needs_times: false,
     check,
 };
 
@@ -27,7 +28,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             why = "one reset brings two boot-up messages";
         }
         if signs.len() < 2 {
-            signs = beats(node);
+            signs = beats(facts, node);
             why = "two heartbeats take turns";
         }
         let [first, .., last] = signs[..] else {
@@ -91,7 +92,7 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
 }
 
 /// Heartbeats of two senders: they alternate, or their states do.
-fn beats(node: &Node) -> Vec<Seen> {
+fn beats(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
     let states: Vec<u8> = node
         .states
         .iter()
@@ -103,7 +104,7 @@ fn beats(node: &Node) -> Vec<Seen> {
         .filter(|three| three[0] == three[2] && three[0] & 0x7F != three[1] & 0x7F);
     let is_turning = states.len() >= 6 && turns.count() * 2 >= states.len();
     let is_guarded = node.guards.len() * 2 > node.beats.len();
-    if !is_guarded && (is_turning || is_interleaved(&node.beats)) {
+    if !is_guarded && (is_turning || facts.has_times && is_interleaved(&node.beats)) {
         node.beats.clone()
     } else {
         Vec::new()

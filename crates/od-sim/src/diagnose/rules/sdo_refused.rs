@@ -13,6 +13,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "sdo-refused",
     title: "A node refuses a value",
+    needs_times: false,
     check,
 };
 

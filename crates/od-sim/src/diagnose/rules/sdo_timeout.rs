@@ -13,6 +13,7 @@ use crate::words::bytes;
 pub(super) const RULE: Rule = Rule {
     name: "sdo-timeout",
     title: "An SDO request has no response in time",
+    needs_times: false,
     check,
 };
 
@@ -58,7 +59,7 @@ fn is_failed(facts: &Facts<'_>, one: &Exchange) -> bool {
     match one.outcome {
         Outcome::GaveUp | Outcome::Other => true,
         // The log may end before the response.
-        Outcome::Open => facts.end.micros_since(one.request.at) > 500_000,
+        Outcome::Open => facts.has_times && facts.end.micros_since(one.request.at) > 500_000,
         Outcome::Answered | Outcome::Refused(_) => false,
     }
 }
@@ -131,11 +132,15 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
     } else if let Some((one, extra)) = late {
         Cause::new(
             "late-response",
-            format!(
-                "node {id} responds after {}, and the client waits for {}",
-                millis(extra.at.micros_since(one.request.at)),
-                millis(one.end.at.micros_since(one.request.at))
-            ),
+            if facts.has_times {
+                format!(
+                    "node {id} responds after {}, and the client waits for {}",
+                    millis(extra.at.micros_since(one.request.at)),
+                    millis(one.end.at.micros_since(one.request.at))
+                )
+            } else {
+                format!("node {id} responds only after the client has given up")
+            },
             "the time-out of the client: some objects take long (save, restore, block transfers)",
         )
     } else if is_stopped {

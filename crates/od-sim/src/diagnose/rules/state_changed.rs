@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "state-changed",
     title: "A node leaves Operational without a command",
+    needs_times: false,
     check,
 };
 

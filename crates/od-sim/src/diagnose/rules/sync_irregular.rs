@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "sync-irregular",
     title: "SYNC does not keep its period",
+    needs_times: true,
     check,
 };
 

@@ -10,6 +10,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "two-clients",
     title: "Two clients on one SDO channel",
+    needs_times: true,
     check,
 };
 

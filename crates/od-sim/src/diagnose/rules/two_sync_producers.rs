@@ -9,6 +9,7 @@ use crate::diagnose::rule::Rule;
 pub(super) const RULE: Rule = Rule {
     name: "two-sync-producers",
     title: "Two producers of SYNC",
+    needs_times: true,
     check,
 };
 
