@@ -489,14 +489,17 @@ fn cyclic_velocities_and_interpolated_positions() {
 fn a_held_shaft_is_a_following_error_that_a_reset_ends() {
     let mut bench = Bench::enabled(1);
     bench.write(0x6065, 0, &100_u32.to_le_bytes());
-    bench.write(0x6066, 0, &[20, 0]);
+    bench.write(0x6066, 0, &[40, 0]);
     bench.heard();
     bench.node.change(bench.now, |drive, _| {
         drive.world(0).expect("an axis").is_held = true;
     });
     bench.write32(0x607A, 100_000);
     bench.control(0x1F);
-    bench.wait(100);
+    bench.wait(35);
+    assert_eq!(bench.status() & ERROR, 0, "before the time of 6066h");
+    bench.wait(65);
+    assert_eq!(bench.status() & ERROR, ERROR);
     let emcy = |bench: &mut Bench| {
         bench
             .heard()

@@ -652,13 +652,10 @@ impl Axis {
         let mut set = |bit, holds| word |= if holds { bit } else { 0 };
         set(status::LIMIT, self.is_limited);
         let after = |steps: u32, time| steps > 0 && i64::from(steps) > self.get(store, time);
+        let is_late = after(self.late, 0x6066);
         let is_enabled = self.state == State::OperationEnabled;
         let (reached, of_mode, error) = match self.mode {
-            PROFILE_POSITION => (
-                after(self.reached, 0x6068),
-                self.is_acknowledged,
-                self.late > 0,
-            ),
+            PROFILE_POSITION => (after(self.reached, 0x6068), self.is_acknowledged, is_late),
             PROFILE_VELOCITY => (
                 after(self.reached, 0x606E),
                 after(self.standing, 0x6070),
@@ -673,12 +670,12 @@ impl Axis {
             INTERPOLATED_POSITION => (
                 self.reached > 0,
                 is_enabled && self.controlword & control::START != 0,
-                self.late > 0,
+                is_late,
             ),
             CYCLIC_POSITION | CYCLIC_VELOCITY => {
                 let is_halted = self.controlword & control::HALT != 0;
                 let follows = is_enabled && !is_halted && self.stop.is_none();
-                (false, follows && !self.is_limited, self.late > 0)
+                (false, follows && !self.is_limited, is_late)
             }
             _ => (false, false, false),
         };
