@@ -29,9 +29,14 @@ const EXTENSION: &str = "
 [1020sub2]\nParameterName=Time\nDataType=7\nAccessType=rw\nDefaultValue=0\n
 ";
 
+/// The name of a device without that of its shaft.
+fn kind(name: &str) -> &str {
+    name.split(' ').next().unwrap_or(name)
+}
+
 /// The EDS of a device of the table.
 fn text(name: &str) -> String {
-    match name {
+    match kind(name) {
         "ds301" => include_str!("../../../../firmware/eds/ds301.eds")
             .replace("LSS_Supported=0", "LSS_Supported=1"),
         "no-lss" => include_str!("../../../../firmware/eds/ds301.eds").into(),
@@ -65,6 +70,8 @@ fn is_lasting(case: &str) -> bool {
         "nmt-self-start",
         "sync-saved",
         "sdo-clients",
+        "encoder-preset-saved",
+        "encoder-gear",
     ];
     lasting.iter().any(|start| case.starts_with(start))
 }
@@ -90,7 +97,7 @@ impl Bench {
     }
 
     fn device(&self) -> VirtualDevice {
-        if let Some(kind) = od_devices::find(self.name) {
+        if let Some(kind) = od_devices::find(kind(self.name)) {
             return VirtualDevice::new(kind, NodeId::ONE);
         }
         let options = EdsOptions {
@@ -116,6 +123,9 @@ impl Bench {
         bus.start(number);
         // A position of 0 would be 0 in any scale.
         bus.with(number, |device, now| device.turn(0.3, now));
+        if self.name.ends_with(" turning") {
+            bus.with(number, |device, now| device.set_rpm(10.0, now));
+        }
         if self.name == "io" {
             for (output, input) in [
                 ("out3", "in2"),

@@ -39,7 +39,7 @@ pub(super) fn outputs(dut: &Dut<'_>) -> Checked<Vec<Entry>> {
 }
 
 /// A frame that changes the first byte of each object of a mapping.
-struct Changed {
+pub(super) struct Changed {
     bytes: Vec<u8>,
     /// Each object, its value before, and that of the frame.
     values: Vec<(Address, Vec<u8>, Vec<u8>)>,
@@ -47,7 +47,7 @@ struct Changed {
 
 impl Changed {
     /// Reads the objects of these mapping entries; a dummy takes its bits as 0.
-    fn of(dut: &mut Dut<'_>, entries: &[u32]) -> Checked<Self> {
+    pub(super) fn of(dut: &mut Dut<'_>, entries: &[u32]) -> Checked<Self> {
         let (mut bytes, mut values) = (Vec::new(), Vec::new());
         for entry in entries {
             let address = Address::new((entry >> 16) as u16, (entry >> 8) as u8);
@@ -67,7 +67,7 @@ impl Changed {
     }
 
     /// Sends the frame in Operational.
-    fn send(&self, dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    pub(super) fn send(&self, dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
         dut.nmt(Command::Start)?;
         if let Some(frame) = Frame::new(pdo.id(), &self.bytes) {
             dut.send(frame)?;
@@ -84,7 +84,7 @@ impl Changed {
     }
 
     /// Fails unless each object has its value before, or that of the frame.
-    fn holds(&self, dut: &mut Dut<'_>, is_new: bool, why: &str) -> Checked {
+    pub(super) fn holds(&self, dut: &mut Dut<'_>, is_new: bool, why: &str) -> Checked {
         for (address, before, wanted) in &self.values {
             let wanted = if is_new { wanted } else { before };
             let is = dut.read(*address)?;
@@ -309,7 +309,7 @@ pub(super) fn with_another(dut: &Dut<'_>, map: u16, all: &[Entry], first: &Entry
 }
 
 /// The valid RPDOs whose mapping the EDS allows.
-fn valid(dut: &mut Dut<'_>) -> Checked<Vec<Tpdo>> {
+pub(super) fn valid(dut: &mut Dut<'_>) -> Checked<Vec<Tpdo>> {
     let mut found = Vec::new();
     for number in dut.eds.pdos(0x1400) {
         let com = 0x1400 + number;
@@ -367,7 +367,11 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
         if entries.len() < 2 {
             continue;
         }
-        match on(dut, pdo, |dut, map| takes(dut, &pdo, map, &entries)) {
+        let done = on(dut, pdo, |dut, map| {
+            takes(dut, &pdo, map, &entries)?;
+            lengths(dut, &pdo, &entries)
+        });
+        match done {
             Err(End::NotApplicable(_)) => {}
             done => {
                 dut.fault(done)?;

@@ -8,7 +8,7 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
 use crate::conform::sdo::abort_text;
 
-const PRESET: Address = Address::new(0x6003, 0);
+pub(super) const PRESET: Address = Address::new(0x6003, 0);
 
 pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
     for index in [0x6000, 0x6500] {
@@ -83,104 +83,6 @@ pub(super) fn serial(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// A preset object: itself, the position, and the offset.
-type Preset = (Address, Address, Option<Address>);
-
-/// 6003h, and each channel of 6010h.
-fn presets(dut: &Dut<'_>) -> Vec<Preset> {
-    let position = Address::new(0x6004, 0);
-    let has = |address: &Address| dut.eds.entry(address.index, address.sub).is_some();
-    let mut all = vec![(PRESET, position, Some(Address::new(0x6509, 0)).filter(has))];
-    for sub in (1..=0xFE).take_while(|sub| dut.eds.writes(0x6010, *sub)) {
-        let own = Some(Address::new(0x6020, sub)).filter(has);
-        if let Some(position) = own.or(Some(position).filter(|_| sub == 1)) {
-            let offset = Some(Address::new(0x650C, sub)).filter(has);
-            all.push((Address::new(0x6010, sub), position, offset));
-        }
-    }
-    all
-}
-
-/// The position takes each preset value at once, and a reset keeps neither more nor less.
-pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
-    for preset in presets(dut) {
-        let done = takes_presets(dut, preset);
-        dut.fault(done)?;
-    }
-    Ok(())
-}
-
-fn takes_presets(dut: &mut Dut<'_>, (preset, position, offset): Preset) -> Checked {
-    let at = |dut: &mut Dut<'_>, address: Address| dut.number(address.index, address.sub);
-    let before = at(dut, position)?;
-    let old = dut.read(preset)?;
-    let range = dut.number(0x6002, 0)?;
-    let near = if before > 200 || range <= 400 {
-        100
-    } else {
-        before + 100
-    };
-    let mut values = vec![near];
-    if range > 4 * NOISE {
-        values.extend([0, range / 2 + 1, range - 1]);
-    }
-    let mut faults = Vec::new();
-    // A preset value does not change the position of the shaft itself.
-    let raw = dut.eds.entry(0x600C, 0).map(|entry| entry.address);
-    let raw_before = raw.map(|it| at(dut, it)).transpose()?;
-    for value in values {
-        let was = (
-            at(dut, position)?,
-            offset.map(|it| at(dut, it)).transpose()?,
-        );
-        dut.write(preset, &(value as u32).to_le_bytes())?;
-        let is = at(dut, position)?;
-        let shown = at(dut, preset)?;
-        let now = offset.map(|it| at(dut, it)).transpose()?;
-        let off = is.abs_diff(value);
-        let off = off.min(range.wrapping_sub(off));
-        let moved = was.0.abs_diff(value) > NOISE;
-        faults.push(
-            ensure(
-                shown == value,
-                format!("{value} in {preset}, as written"),
-                format!("{shown} was read"),
-            )
-            .and(ensure(
-                off <= NOISE,
-                format!("{position} = {value}, the preset value"),
-                format!("{is} was read"),
-            ))
-            .and(ensure(
-                now.is_none() || !moved || was.1 != now,
-                format!(
-                    "another offset than before, as the position was {} and the preset value is {value}",
-                    was.0
-                ),
-                format!("{} was read", now.unwrap_or(0)),
-            )),
-        );
-    }
-    if let (Some(address), Some(before)) = (raw, raw_before) {
-        let is = at(dut, address)?;
-        faults.push(ensure(
-            is.abs_diff(before) <= 4096 * NOISE,
-            format!("{before} in {address}, the raw value, about as before the preset"),
-            format!("{is} was read"),
-        ));
-    }
-    // Restores the position: the preset value that gives the earlier one.
-    dut.write(preset, &(before as u32).to_le_bytes())?;
-    dut.notes.push(format!(
-        "the position is {before} again; {preset} was {} before",
-        values::hex(&old)
-    ));
-    for fault in faults {
-        dut.fault(fault)?;
-    }
-    Ok(())
-}
-
 /// 6200h is the event timer of the first TPDO.
 pub(super) fn cyclic_timer(dut: &mut Dut<'_>) -> Checked {
     let pdo = super::transmit::first(dut)?;
@@ -245,7 +147,7 @@ const STEPS: Address = Address::new(0x6001, 0);
 const RANGE: Address = Address::new(0x6002, 0);
 
 /// Position noise of a shaft at rest, in steps.
-const NOISE: u64 = 16;
+pub(super) const NOISE: u64 = 16;
 
 /// Sets bit 2 of 6000h, which turns the scaling on.
 fn scaling(dut: &mut Dut<'_>, on: bool) -> Checked {
@@ -259,7 +161,7 @@ fn scaling(dut: &mut Dut<'_>, on: bool) -> Checked {
 
 /// Runs a test that changes the scaling and the offset, and resets the node, which then has its parameters again. A
 /// device that saved the offset gets its position back by the preset value.
-fn scaled(dut: &mut Dut<'_>, test: fn(&mut Dut<'_>) -> Checked) -> Checked {
+pub(super) fn scaled(dut: &mut Dut<'_>, test: fn(&mut Dut<'_>) -> Checked) -> Checked {
     let before = dut.number(0x6004, 0)?;
     let done = scaling(dut, true).and_then(|()| test(dut));
     if matches!(done, Err(End::Lost(_))) {
@@ -356,10 +258,10 @@ pub(super) fn at_rest(dut: &mut Dut<'_>) -> Checked {
     at_least_one(!rates.is_empty(), "the EDS has neither 6030h nor 6040h")
 }
 
-/// Resolution, revolutions, and supported alarms and warnings are those of the EDS.
+/// Resolution, revolutions, supported alarms and warnings, and versions are those of the EDS.
 pub(super) fn constants(dut: &mut Dut<'_>) -> Checked {
     let mut any = false;
-    for index in [0x6501, 0x6502, 0x6504, 0x6506] {
+    for index in [0x6501, 0x6502, 0x6504, 0x6506, 0x6507] {
         let Some(entry) = dut.eds.entry(index, 0) else {
             continue;
         };
@@ -384,5 +286,41 @@ pub(super) fn constants(dut: &mut Dut<'_>) -> Checked {
         );
         dut.fault(done)?;
     }
-    at_least_one(any, "the EDS has no value of 6501h, 6502h, 6504h and 6506h")
+    at_least_one(
+        any,
+        "the EDS has no value of 6501h, 6502h, 6504h, 6506h and 6507h",
+    )
+}
+
+/// While the shaft turns, 6030h is multiplied by 6031h:03 and divided by 6031h:04.
+pub(super) fn speed_factor(dut: &mut Dut<'_>) -> Checked {
+    let [multiplier, divider] = [3, 4].map(|sub| Address::new(0x6031, sub));
+    let mut speeds = Vec::new();
+    for (times, by) in [(2u16, 1u16), (1, 1), (1, 2)] {
+        dut.set(multiplier, &times.to_le_bytes())?;
+        dut.set(divider, &by.to_le_bytes())?;
+        // The integration time has 100 ms by default.
+        dut.wait(500_000)?;
+        let bytes = dut.read(Address::new(0x6030, 1))?;
+        speeds.push(super::axis::signed(&bytes));
+    }
+    let wanted = speeds[1];
+    if wanted.abs() < 100 {
+        return lacks("the shaft does not turn fast enough");
+    }
+    if wanted.abs() > 10_000 {
+        return lacks("the shaft turns too fast for a speed of 16 bits");
+    }
+    for (is, wanted, what) in [
+        (speeds[0], 2 * wanted, "2 in 6031h:03"),
+        (speeds[2], wanted / 2, "2 in 6031h:04"),
+    ] {
+        let done = ensure(
+            (is - wanted).abs() <= wanted.abs() / 5,
+            format!("about {wanted} in 6030h:01 with {what}"),
+            format!("{is} was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
 }

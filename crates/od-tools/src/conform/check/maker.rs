@@ -10,16 +10,16 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};
 
 /// Vendor and products of a manual.
-type Makers = (u64, &'static [u64]);
+pub(super) type Makers = (u64, &'static [u64]);
 
 /// GX families: manual 000.
 const GX: Makers = (0xEC, &[0x0A, 0x0B, 0x0C, 0x0D, 0x0E, 0x0F]);
 /// EAM: manual 001.
-const EAM: Makers = (0x5F, &[0x70, 0x71]);
+pub(super) const EAM: Makers = (0x5F, &[0x70, 0x71]);
 /// EN580C: manual 003.
-const EN: Makers = (0x5F, &[0x76]);
+pub(super) const EN: Makers = (0x5F, &[0x76]);
 
-fn is_of(dut: &mut Dut<'_>, makers: &[Makers]) -> Checked {
+pub(super) fn is_of(dut: &mut Dut<'_>, makers: &[Makers]) -> Checked {
     let (vendor, product) = (dut.number(0x1018, 1)?, dut.number(0x1018, 2)?);
     let is_one = |(own, products): &Makers| *own == vendor && products.contains(&product);
     if makers.iter().any(is_one) {

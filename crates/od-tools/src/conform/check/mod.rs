@@ -1,6 +1,7 @@
 //! The built-in cases, and their checks in Rust, a file for each service.
 
 mod arrival;
+mod axis;
 mod block;
 mod cob_ids;
 mod drive;
@@ -8,8 +9,10 @@ mod each_rpdo;
 mod each_tpdo;
 mod emergency;
 mod encoder;
+mod fault;
 mod file;
 mod heartbeat;
+mod homing;
 mod identify;
 mod kept;
 mod lss;
@@ -20,9 +23,12 @@ mod motion;
 mod nmt;
 mod objects;
 mod outputs;
+mod preset;
 mod rpdo;
+mod saved;
 mod segments;
 mod states;
+mod stopping;
 mod store;
 mod sync;
 mod tpdo;
@@ -683,8 +689,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 402 6040h: In each state each command leads to the state that CiA 402 says, or changes nothing.").applies("cia402, 6040h rw, 6041h").needs("motion"),
         check("drive-velocity-window", arrival::velocity_windows,
             "CiA 402 606Dh: Bit 10 of 6041h becomes 1 when the velocity is within 606Dh, and bit 12 is 1 below 606Fh.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-homing-methods", states::homing_methods,
+        check("drive-homing-methods", homing::methods,
             "CiA 402 6098h: 6098h takes each method of 60E3h.").applies("cia402, 6040h rw, 6041h, 6098h rw, 60E3h").needs("motion"),
+        check("drive-position-window", arrival::position_window,
+            "CiA 402 6067h: Bit 10 of 6041h is 1 at the target position when the axis is within 6067h.").applies("cia402, 6040h rw, 6064h, 6067h rw, 607Ah rw").needs("motion"),
         check("drive-position-window-time", arrival::position_window_time,
             "CiA 402 6068h: Bit 10 of 6041h becomes 1 when the position was within 6067h for this time.").applies("cia402, 6040h rw, 6064h, 6067h, 6068h rw, 607Ah rw").needs("motion"),
         check("drive-set-point", motion::set_point,
@@ -709,31 +717,35 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 402 60FFh: In cyclic synchronous velocity mode, 606Ch follows 60FFh.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
         check("drive-interpolated", motion::interpolated,
             "CiA 402 60C1h: In interpolated position mode, 6064h follows 60C1h:01 while bit 4 of 6040h is 1.").applies("cia402, 6040h rw, 6064h, 60C1h:01 rw").needs("motion"),
-        check("drive-homing-speed", arrival::homing_speed,
+        check("drive-homing-speed", homing::speed,
             "CiA 402 6099h: An axis that moves to a switch has the speed of 6099h, and the acceleration of 609Ah, and halt stops it.").applies("cia402, 6040h rw, 606Ch, 6098h rw, 6099h:01 rw, 6099h:02 rw").needs("motion"),
-        check("drive-homing", arrival::homing,
+        check("drive-homing-speeds", homing::speeds,
+            "CiA 402 6099h: In each homing method with a switch, the axis has one of the two speeds of 6099h.").applies("cia402, 6040h rw, 606Ch, 6098h rw, 6099h:01 rw, 6099h:02 rw").needs("motion"),
+        check("drive-homing", homing::homing,
             "CiA 402 6098h: After homing, bits 12 and 10 are 1, bit 13 is 0, and 6064h is the home offset.").applies("cia402, 6040h rw, 6064h, 6098h rw, 607Ch rw").needs("motion"),
-        check("drive-quick-stop", motion::quick_stop,
+        check("drive-quick-stop", stopping::quick_stop,
             "CiA 402 605Ah: After quick stop with an option code from 0 to 4 the drive is in Switch on disabled, with 5 to 8 in Quick stop active; except with 0, the axis is at rest.").applies("cia402, 6040h rw, 605Ah rw, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-stop-options", motion::stop_options,
+        check("drive-stop-options", stopping::stop_options,
             "CiA 402 605Ch: With option code 1 in 605Bh and 605Ch the axis is at rest before the drive leaves Operation enabled.").applies("cia402, 6040h rw, 605Ch rw, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-stop-options-0", arrival::stop_at_once,
+        check("drive-stop-options-0", stopping::stop_at_once,
             "CiA 402 605Bh: With option code 0 in 605Bh and 605Ch the drive leaves Operation enabled without a ramp.").applies("cia402, 6040h rw, 6041h, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-halt", motion::halt,
+        check("drive-halt", stopping::halt,
             "CiA 402 605Dh: Halt stops the axis, which stays in Operation enabled, and moves on after it.").applies("cia402, 6040h rw, 605Dh, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-halt-position", arrival::halt_position,
+        check("drive-halt-position", stopping::halt_position,
             "CiA 402 6040h: Halt stops an axis on its way to a target position.").applies("cia402, 6040h rw, 6064h, 606Ch, 607Ah rw").needs("motion"),
-        check("drive-quick-stop-position", arrival::quick_stop_position,
+        check("drive-quick-stop-position", stopping::quick_stop_position,
             "CiA 402 6040h: Quick stop stops an axis on its way to a target position.").applies("cia402, 6040h rw, 6064h, 606Ch, 607Ah rw").needs("motion"),
-        check("drive-ramps", motion::ramps,
+        check("drive-ramps", stopping::ramps,
             "CiA 402 6083h: The axis changes its speed more slowly with a smaller acceleration (6083h), deceleration (6084h) or quick stop deceleration (6085h).").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-ramp-options", motion::ramp_options,
+        check("drive-ramp-options", stopping::ramp_options,
             "CiA 402 605Ah: Quick stop, halt and a fault stop the axis with 6084h if the option code is 1, and with 6085h if it is 2.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-fault", motion::connection_lost,
+        check("drive-following-error", fault::following_error,
+            "CiA 402 6065h: Bit 13 of 6041h or a fault shows a following error above 6065h that lasts longer than 6066h.").applies("cia402, 6040h rw, 6064h, 6065h rw, 607Ah rw, 6081h rw, 60F4h").needs("motion"),
+        check("drive-fault", fault::connection_lost,
             "CiA 402 6007h: With option code 1, NMT stop is a fault, which ends by bit 7 of 6040h only.").applies("cia402, 6040h rw, 6007h rw, 6041h").needs("motion"),
-        check("drive-fault-reaction", motion::fault_reaction,
+        check("drive-fault-reaction", fault::fault_reaction,
             "CiA 402 605Eh: With option code 1 to 4 a fault stops the axis before the drive is in Fault.").applies("cia402, 6040h rw, 6007h rw, 605Eh rw, 606Ch, 60FFh rw").needs("motion"),
-        check("drive-connection-options", motion::connection_options,
+        check("drive-connection-options", fault::connection_options,
             "CiA 402 6007h: NMT stop changes nothing with option code 0, leads to Switch on disabled with 2, and is a quick stop with 3.").applies("cia402, 6040h rw, 6007h rw, 6041h").needs("motion"),
     ]),
     ("CiA 406", &[
@@ -753,18 +765,26 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 406 6002h: 6004h stays below 6002h when 6002h becomes smaller.").applies("cia406, 6000h rw, 6002h rw, 6003h rw, 6004h").needs("reset"),
         check("encoder-cyclic-timer", encoder::cyclic_timer,
             "CiA 406 6200h: The first TPDO is sent with the period of 6200h, which is also in 1800h:05.").applies("cia406, 6200h rw, tpdo"),
-        check("encoder-preset", encoder::preset,
+        check("encoder-preset", preset::preset,
             "CiA 406 6004h: 6004h is the preset value as soon as 6003h is written.").applies("cia406, 6002h, 6003h rw, 6004h").needs("reset"),
+        check("encoder-preset-beyond", preset::beyond,
+            "CiA 406 6003h: A preset value beyond 6002h is refused, or counts within 6002h.").applies("cia406, 6002h, 6003h rw, 6004h").needs("reset"),
+        check("encoder-preset-saved", preset::saved,
+            "CiA 406 6003h: The position that a preset value gave is there after a save and a reset.").applies("cia406, 6002h, 6003h rw, 6004h, 1010h:01").needs("reset, store"),
         check("encoder-alarms", encoder::alarms,
             "CiA 406 6503h: 6503h has only alarms that 6504h supports.").applies("cia406, 6503h, 6504h"),
         check("encoder-warnings", encoder::warnings,
             "CiA 406 6505h: 6505h has only warnings that 6506h supports.").applies("cia406, 6505h, 6506h"),
         check("encoder-at-rest", encoder::at_rest,
             "CiA 406 6030h: Speed and acceleration are 0 while the position stays the same.").applies("cia406, 6004h"),
+        check("encoder-speed-factor", encoder::speed_factor,
+            "CiA 406 6031h: While the shaft turns, 6030h is multiplied by 6031h:03 and divided by 6031h:04.").applies("cia406, 6030h:01, 6031h:03 rw, 6031h:04 rw"),
         check("encoder-constants", encoder::constants,
-            "CiA 406 6501h: Resolution, revolutions, supported alarms and warnings are those of the EDS.").applies("cia406"),
+            "CiA 406 6501h: Resolution, revolutions, supported alarms and warnings, and versions are those of the EDS.").applies("cia406"),
         check("encoder-repeat-counter", maker::repeats,
             "Manual 000, object 2800h: A TPDO is repeated as often as its counter says while the position stays the same.").applies("cia406, 2800h rw, 1018h:02"),
+        check("encoder-gear", preset::gear,
+            "Manuals 001 and 003, object 2001h: The electronic gear gives the position or 6001h as its numerator and denominator say.").applies("cia406, 2001h:01 rw, 6002h rw, 6004h, 1010h:01, 1018h:02").needs("reset, store"),
         check("encoder-customer-data", maker::customer_data,
             "Manual 000, object 2300h: Customer data keep what was written.").applies("cia406, 2300h:01 rw, 1018h:02"),
         check("encoder-clocks", maker::clocks,
@@ -793,8 +813,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.13: 1010h:03 saves the parameters of the application, and 1010h:02 does not.").applies("1010h:01, 1010h:02, 1010h:03").needs("reset, store"),
         check("store-manufacturer", |dut| store::save_apart(dut, Apart::Manufacturer),
             "CiA 301 7.5.2.13: 1010h:04 saves the parameters of the manufacturer, and 1010h:02 does not.").applies("1010h:01, 1010h:02, 1010h:04").needs("reset, store"),
-        check("store-mapping", store::save_mapping,
-            "CiA 301 7.5.2.13: CAN-ID and mapping of a TPDO are saved.").applies("tpdo, 1010h:01").needs("reset, store"),
+        check("store-rpdo", saved::rpdos,
+            "CiA 301 7.5.2.13: A saved mapping of each RPDO is in use after the reset.").applies("rpdo, 1010h:01").needs("reset, store"),
+        check("store-mapping", saved::tpdos,
+            "CiA 301 7.5.2.13: CAN-ID and mapping of each TPDO are saved, and in use after the reset.").applies("tpdo, 1010h:01").needs("reset, store"),
         check("store-twice", store::save_twice,
             "CiA 301 7.5.2.13: After two saves, a reset loads the values of the second.").applies("1010h:01").needs("reset, store"),
         check("heartbeat-saved", store::heartbeat_saved,

@@ -1,14 +1,10 @@
-//! CiA 402: every command of the controlword in every state, every mode and every homing method, of each axis.
+//! CiA 402: every command of the controlword in every state, and every mode, of each axis.
 
-use od_model::Address;
-
-use super::motion::{
-    Axis, CHANGE, DISABLED, ENABLE, ENABLED, HOMING, PROFILE_VELOCITY, READY, SWITCHED_ON, Shown,
-    each,
+use super::axis::{
+    Axis, CHANGE, DISABLED, ENABLE, ENABLED, PROFILE_VELOCITY, READY, SWITCHED_ON, Shown, each,
 };
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, ensure, fail, lacks};
-use crate::conform::sdo::abort_text;
+use crate::conform::end::{Checked, ensure, lacks};
 
 /// A state: the commands that lead to it, and the state after each command.
 type Row = (
@@ -145,36 +141,4 @@ pub(super) fn modes(dut: &mut Dut<'_>) -> Checked {
         }
     }
     Ok(())
-}
-
-/// 6098h takes each method of 60E3h.
-pub(super) fn homing_methods(dut: &mut Dut<'_>) -> Checked {
-    each(dut, HOMING, |dut, axis| {
-        let list = 0x60E3 + axis.0;
-        if !dut.eds.has(list) {
-            return lacks("the drive has no list of homing methods, 60E3h");
-        }
-        let method = axis.at(0x6098);
-        dut.keep(method)?;
-        for sub in 1..=dut.number(list, 0)?.min(0xFE) as u8 {
-            let wanted = dut.read(Address::new(list, sub))?;
-            let number: Vec<u8> = wanted.iter().copied().take(1).collect();
-            let done = match dut.download(method, &number)? {
-                Err(code) => fail(
-                    format!("{number:02X?} in {method}, a method of 60E3h"),
-                    abort_text(code),
-                ),
-                Ok(()) => {
-                    let is = dut.read(method)?;
-                    ensure(
-                        is == number,
-                        format!("{number:02X?} in {method}, as written"),
-                        format!("{is:02X?} was read"),
-                    )
-                }
-            };
-            dut.fault(done)?;
-        }
-        Ok(())
-    })
 }

@@ -5,7 +5,6 @@ use od_wire::AbortCode::{LocalControl, NotStored};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
-use super::transmit::{Tpdo, first};
 use crate::conform::dut::{Dut, is_data};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
@@ -492,85 +491,6 @@ pub(super) fn load_all(dut: &mut Dut<'_>) -> Checked {
         return done;
     }
     done.and(bring_back(dut, &before))
-}
-
-/// CAN-ID and mapping of a TPDO are saved.
-pub(super) fn save_mapping(dut: &mut Dut<'_>) -> Checked {
-    let pdo = first(dut)?;
-    let (com, map) = (pdo.address(1), pdo.map());
-    let covered = |address: Address| {
-        let entry = dut.eds.entry(address.index, address.sub);
-        entry.is_some_and(|entry| entry.access.writable() && entry.group.covered_by(1))
-    };
-    if !covered(com) || !covered(Address::new(map, 0)) || !covered(Address::new(map, 1)) {
-        return lacks("1010h:01 does not save a mapping that can be written, by the EDS");
-    }
-    let old = super::mapping::entries(dut, &pdo)?;
-    let mut others = dut.eds.dictionary().entries();
-    let other = others.find(|entry| {
-        let raw = super::mapping::raw(entry);
-        entry.maps_to_tpdo() && matches!(raw & 0xFF, 8 | 16 | 32) && old.first() != Some(&raw)
-    });
-    let Some(other) = other.map(|entry| super::mapping::raw(&entry)) else {
-        return lacks("no other object can be mapped");
-    };
-    let cob_id = (pdo.cob_id & !0x3FFF_FFFF) | 0x4F4;
-    if !configured(dut, &pdo, &[other], cob_id)? {
-        configured(dut, &pdo, &old, pdo.cob_id)?;
-        return lacks("the node does not take another mapping and CAN-ID");
-    }
-    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
-        configured(dut, &pdo, &old, pdo.cob_id)?;
-        dut.reset(Command::ResetNode)?;
-        let wanted = [
-            (com, cob_id.to_le_bytes().to_vec()),
-            (Address::new(map, 0), vec![1]),
-            (Address::new(map, 1), other.to_le_bytes().to_vec()),
-        ];
-        for (address, wanted) in wanted {
-            let after = dut.read(address)?;
-            let name = values::label(dut.eds.dictionary(), address);
-            let kept = ensure(
-                after == wanted,
-                format!(
-                    "{} in {name} after the reset, as saved",
-                    values::hex(&wanted)
-                ),
-                format!("{} was read", values::hex(&after)),
-            );
-            dut.fault(kept)?;
-        }
-        Ok(())
-    });
-    if let Err(End::Lost(_)) = done {
-        return done;
-    }
-    configured(dut, &pdo, &old, pdo.cob_id)?;
-    command(dut, 0x1010, 1, b"save")?;
-    done
-}
-
-/// Writes mapping and COB-ID of a TPDO. Returns whether the node accepts all of it.
-fn configured(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32], cob_id: u32) -> Checked<bool> {
-    let map = pdo.map();
-    let now = dut.number(pdo.com, 1)? as u32;
-    let mut writes = vec![
-        (pdo.address(1), (now | 1 << 31).to_le_bytes().to_vec()),
-        (Address::new(map, 0), vec![0]),
-    ];
-    for (sub, entry) in (1..).zip(entries) {
-        writes.push((Address::new(map, sub), entry.to_le_bytes().to_vec()));
-    }
-    writes.push((Address::new(map, 0), vec![entries.len() as u8]));
-    for cob_id in [cob_id | 1 << 31, cob_id] {
-        writes.push((pdo.address(1), cob_id.to_le_bytes().to_vec()));
-    }
-    for (address, bytes) in writes {
-        if dut.download(address, &bytes)?.is_err() {
-            return Ok(false);
-        }
-    }
-    Ok(true)
 }
 
 /// The second of two saves is valid.
