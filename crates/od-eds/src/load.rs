@@ -149,6 +149,10 @@ fn encoded(document: &Document) -> Vec<Finding> {
 
 /// The finding about the control characters of a line. A tab is a blank, and 1Ah is the end of a file of DOS.
 fn controls(line: &lines::Line<'_>) -> Option<Finding> {
+    let is_plain = |byte: u8| matches!(byte, b' '..=b'~' | b'\t');
+    if line.text.bytes().all(is_plain) {
+        return None;
+    }
     let is_wrong = |c: char| c.is_control() && !matches!(c, '\t' | '\u{1A}');
     let found = line.text.matches(is_wrong).take(REMOVED + 1);
     let found: Vec<&str> = found.collect();
