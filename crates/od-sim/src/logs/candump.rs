@@ -8,7 +8,7 @@
 //! | bits, last byte first (`candump -i`, `-S`) | `can0  601   [2]  01000000 00000100`, <code>can0  601   \[2\]  04\`40</code> |
 //! | screen (`candump -tA -x -a`) | `(2026-11-25 15:50:01.123456)  can0  RX - -  601   [2]  40 41   '@A'` |
 //!
-//! Any other text is a [`Problem`] with the place and the reason.
+//! A remark may follow the frame. Any other text is a [`Problem`] with the place and the reason.
 
 use std::format;
 use std::prelude::v1::*;
@@ -120,7 +120,9 @@ pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
     } else {
         screen(column, word, &mut rest)?
     });
-    logged.sent |= end(rest)?;
+    // On a screen the length says where the data ends.
+    let is_over = !word.contains('#') && screen_byte(1, rest.peek()).is_err();
+    logged.sent |= !is_over && end(rest)?;
     Ok(logged)
 }
 
@@ -314,19 +316,20 @@ fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Problem> {
         .ok_or_else(not_one)
 }
 
-/// A log line may end with `R` or `T` (received or sent), a screen line with its bytes as characters (`candump -a`).
-/// Nothing else follows a frame.
+/// A log line may end with `R` or `T` (received or sent), and with a remark, such as `# NMT start`.
 fn end(mut rest: Cursor<'_>) -> Result<bool, Problem> {
-    match next_word(&mut rest, "") {
-        Err(_) | Ok((_, "R" | "r")) => Ok(false),
-        Ok((_, "T" | "t")) => Ok(true),
-        Ok((_, word)) if word.starts_with('\'') => Ok(false),
-        Ok((column, word)) => Err(Problem::at(
-            column,
-            format!("unexpected `{word}` after the frame"),
-            "write one frame per line",
-        )),
+    let direction = rest.peek();
+    if matches!(direction, "R" | "r" | "T" | "t") {
+        rest.next();
     }
+    if rest.text.starts_with(char::is_alphanumeric) {
+        return Err(Problem::at(
+            rest.column,
+            format!("unexpected `{}` after the frame", rest.peek()),
+            "write one frame per line",
+        ));
+    }
+    Ok(matches!(direction, "T" | "t"))
 }
 
 /// One line of a log in the form of `candump -L`.

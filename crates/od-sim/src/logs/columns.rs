@@ -19,8 +19,15 @@ fn is_memorator(line: &str) -> bool {
     line.split_whitespace().take(6).eq(words)
 }
 
+/// Returns whether a line has a message of python-can, which its log puts after words of its own.
 fn is_printed(line: &str) -> bool {
-    line.starts_with("Timestamp:") && line.contains(" ID:") && line.contains(" DL:")
+    let has = |name: &str| line.split_whitespace().any(|word| word == name);
+    has("Timestamp:") && has("ID:") && line.split_whitespace().any(is_length)
+}
+
+/// Returns whether a word comes before the length; old versions of python-can print `DLC:`.
+fn is_length(word: &str) -> bool {
+    matches!(word, "DL:" | "DLC:")
 }
 
 fn is_head(line: &str) -> bool {
@@ -68,7 +75,7 @@ fn printed(line: &str) -> Result<Entry, String> {
     let flags: Vec<&str> = words
         .by_ref()
         .skip(2)
-        .take_while(|word| *word != "DL:")
+        .take_while(|word| !is_length(word))
         .collect();
     if flags.contains(&"E") {
         return Ok(Entry::Record(Record::error(at)));
@@ -201,6 +208,16 @@ Timestamp:        1.900000    ID: 0123    S Rx     F BS           DL: 12    00 0
                 "line 5: it is a CAN FD frame, and CANopen does not use CAN FD"
             ]
         );
+    }
+
+    /// Version 3 prints `DLC:`, and at the level DEBUG python-can writes each frame that it sends into a log.
+    #[test]
+    fn a_log_of_python_can_is_read() {
+        let text = "\
+DEBUG:canopen.sdo.client:Reading 0x1800:1 from node 1
+DEBUG:can.socketcan.tx:sending: Timestamp:        0.000000        ID: 0601    S                DLC:  8    40 00 18 01 00 00 00 00
+DEBUG:canopen.variable:Value of Transmit PDO Communication Parameter 1.COB-ID (0x1800:1) is 385";
+        assert_eq!(told(text), ["0 601#4000180100000000"]);
     }
 
     #[test]

@@ -125,10 +125,11 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// Lines that end with `\n`, `\r\n` or `\r`.
+/// Lines that end with `\n`, `\r\n` or `\r`, without the `> ` before a quotation in a mail.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.split('\n')
         .flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'))
+        .map(|line| line.trim_start_matches("> "))
 }
 
 fn finish(mut records: Vec<Record>, skipped: Vec<Unread>) -> Log {

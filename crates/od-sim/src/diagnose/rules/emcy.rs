@@ -35,7 +35,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 .node(*id)
                 .recovered(last.code == 0)
                 .shows(group.iter().map(|emcy| emcy.seen.place))
-                .cause(cause(*id, first.code, &meaning)),
+                .cause(cause(*id, first.code, meaning)),
             );
         }
     }

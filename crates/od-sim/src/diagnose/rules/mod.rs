@@ -19,6 +19,7 @@ mod state_changed;
 mod sync_irregular;
 mod two_clients;
 mod two_sync_producers;
+mod unasked_responses;
 
 use super::rule::Rule;
 
@@ -39,6 +40,7 @@ pub(super) const ALL: &[Rule] = &[
     inhibit_time::RULE,
     pdo_lost::RULE,
     two_clients::RULE,
+    unasked_responses::RULE,
     sdo_timeout::RULE,
     sdo_refused::RULE,
     state_changed::RULE,

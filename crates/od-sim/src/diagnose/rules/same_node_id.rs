@@ -6,6 +6,7 @@ use std::prelude::v1::*;
 use crate::diagnose::facts::{Facts, Node, Outcome, Seen, after, before, is_interleaved};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
+use crate::diagnose::rules::unasked_responses;
 
 pub(super) const RULE: Rule = Rule {
     name: "same-node-id",
@@ -51,20 +52,22 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
 /// A reset command explains a boot-up message this long after it, in microseconds.
 const COMMAND: u64 = 3_000_000;
 
-/// The second responses to a request, each with the first one; both are about the same object.
+/// The second responses to a request, each with the first one; both are about the same object, which a segment does not name.
 fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
     let mut signs = Vec::new();
     let head = |seen: &Seen| {
-        facts
-            .frame(seen.place)
-            .map(|frame| frame.bytes()[1..4].to_vec())
+        let frame = facts.frame(seen.place)?;
+        (frame.bytes()[0] >= 0x40).then(|| frame.bytes()[1..4].to_vec())
     };
     for exchange in &node.exchanges {
         let is_done = matches!(exchange.outcome, Outcome::Answered | Outcome::Refused(_));
+        let first = head(&exchange.end);
         let second = exchange.extra.iter().find(|extra| {
-            extra.at.micros_since(exchange.end.at) <= SOON && head(extra) == head(&exchange.end)
+            let is_soon = extra.at.micros_since(exchange.end.at) <= SOON;
+            is_soon && first.is_some() && head(extra) == first
         });
-        if let Some(second) = second.filter(|_| is_done) {
+        let is_flood = exchange.extra.len() >= unasked_responses::MOST;
+        if let Some(second) = second.filter(|_| is_done && !is_flood) {
             signs.extend([exchange.end, *second]);
         }
     }

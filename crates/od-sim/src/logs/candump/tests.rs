@@ -54,6 +54,23 @@ fn the_three_forms_read_the_same() {
     check("can0 181#0102030405060708_F", "181#0102030405060708");
 }
 
+/// People explain the frames of a log that they paste into a question, and others quote it.
+#[test]
+fn a_remark_may_follow_a_frame() {
+    check("can0  000   [2]  82 0A      # NMT to node 0Ah", "000#820A");
+    check("can0  70A   [1]  00   boot-up", "70A#00");
+    check("can0  701   [0]  remote request  <- guarding", "701#R");
+    check("(0.1) can0 70A#00 T // boot-up", "(0.100000) can0 70A#00");
+    check("60A#4017 ; heartbeat", "60A#4017");
+    check(
+        "can0 701 [1] 00 05 boot-up",
+        "17: unexpected `05` after the frame",
+    );
+    let quoted = "> > can0  70A   [1]  00\n> > can0  70A   [1]  7F   # why?\n";
+    let log = crate::logs::read(quoted.as_bytes()).expect("a log");
+    assert_eq!((log.records.len(), log.skipped.len()), (2, 0));
+}
+
 /// Columns that other options add to a log, and escape sequences of a terminal.
 #[test]
 fn a_log_may_have_other_lines() {
