@@ -122,6 +122,18 @@ impl Eds {
         }
     }
 
+    /// Error modes, error values and filter masks of the digital outputs of a module (CiA 401), which act on an output
+    /// after an error or with its next value.
+    pub(crate) fn reactions(&self) -> Vec<Entry> {
+        let is_one = |entry: &Entry| {
+            let index = entry.address.index;
+            let is_list = matches!(index, 0x6200..=0x6237 | 0x6300..=0x6327);
+            self.moves(entry.address) && is_list && matches!(index & 0xF, 6..=8)
+        };
+        let all = self.dictionary().entries().filter(is_one);
+        all.filter(|entry| entry.access.writable()).collect()
+    }
+
     /// The value after a restore, as bytes on the bus; `None` if the EDS has no default value.
     pub(crate) fn default(&self, entry: &Entry, node: NodeId) -> Option<Vec<u8>> {
         let size = entry.data_type.size();

@@ -103,6 +103,13 @@ pub(super) fn other_mode(dut: &mut Dut<'_>) -> Checked {
     match dut.download(MODE, &mode.to_le_bytes())? {
         Err(_) => dut.refuses_value(MODE, &mode.to_le_bytes(), &codes),
         Ok(()) => {
+            let shown = dut.number(0x6060, 0)? as u8 as i8;
+            let done = ensure(
+                shown == *mode,
+                format!("an abort for mode {mode}, which 6502h lacks, or {mode} in 6060h"),
+                format!("the value was accepted, and {shown} was read"),
+            );
+            dut.fault(done)?;
             dut.wait(100_000)?;
             let is = dut.number(0x6061, 0)? as u8 as i8;
             ensure(

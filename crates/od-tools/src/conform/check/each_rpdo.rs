@@ -138,11 +138,7 @@ fn lengths(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
             let Some(frame) = emcy(dut, 0x8210, 200_000)? else {
                 return fail(expected, "none came");
             };
-            ensure(
-                frame.dlc() == 8 && frame.bytes()[2] & 1 == 1,
-                expected + ", of 8 bytes, with bit 0 of the error register",
-                format!("{frame} came"),
-            )?;
+            is_whole(&frame, &expected)?;
         }
         let why = format!(", as RPDO{number} was too short");
         changed.holds(dut, false, &why)?;
@@ -166,6 +162,15 @@ fn lengths(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
         changed.reset(dut)?;
     }
     dut.nmt(Command::EnterPreOperational)
+}
+
+/// An EMCY message of an error has 8 bytes, and bit 0 of the error register.
+fn is_whole(frame: &Frame, expected: &str) -> Checked {
+    ensure(
+        frame.dlc() == 8 && frame.bytes()[2] & 1 == 1,
+        format!("{expected}, of 8 bytes, with bit 0 of the error register"),
+        format!("{frame} came"),
+    )
 }
 
 /// Transmission types with which an RPDO waits for the next SYNC, whatever their number is.
@@ -358,7 +363,7 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
     let all = outputs(dut)?;
     let mut any = false;
     for pdo in valid(dut)? {
-        let [_, once] = super::kept::fillings(dut, pdo.map());
+        let [_, once] = super::mapping::fillings(dut, pdo.map());
         let is_output = |raw: &u32| {
             let address = Address::new((raw >> 16) as u16, (raw >> 8) as u8);
             all.iter().any(|entry| entry.address == address)
@@ -464,9 +469,10 @@ fn is_in_time(dut: &mut Dut<'_>, pdo: &Tpdo, changed: &Changed, millis: u16) -> 
                 return fail(expected, format!("{frame} came"));
             }
         }
-        if late(dut, 2 * time)?.is_none() {
-            let expected = format!("EMCY 8250h, as {name} did not come for {millis} ms");
-            return fail(expected, "none came");
+        let expected = format!("EMCY 8250h, as {name} did not come for {millis} ms");
+        match late(dut, 2 * time)? {
+            Some(frame) => is_whole(&frame, &expected)?,
+            None => return fail(expected, "none came"),
         }
     }
     Ok(())

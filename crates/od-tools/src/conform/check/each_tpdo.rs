@@ -134,13 +134,74 @@ fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
         format!("{} came", heard.frame),
     )?;
     if is_synchronous {
-        for kind in [2, 3, 100] {
+        for kind in [2, 3, 4, 5, 6, 7, 8, 9, 10, 100] {
             is_sent_with(dut, pdo, kind)?;
         }
         forbids_rtr(dut, pdo)?;
     }
     is_silent_while_off(dut, pdo)?;
+    changes_in_operational(dut, pdo)?;
     keeps_times(dut, pdo)
+}
+
+/// Transmission type, event timer and bit 31 take effect in Operational, too, if the node takes them there.
+fn changes_in_operational(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let name = format!("TPDO{}", pdo.com - 0x17FF);
+    dut.keep(pdo.address(2))?;
+    let has_timer = dut.eds.writes(pdo.com, 5);
+    if has_timer {
+        dut.set(pdo.address(5), &[0, 0])?;
+    }
+    let _ = dut.download(pdo.address(2), &[254])?;
+    dut.nmt(Command::Start)?;
+    if dut.download(pdo.address(2), &[1])?.is_ok() {
+        comes_with_sync(dut, pdo, true, "after its transmission type became 1")?;
+        let is_off = |cob_id: u32| (cob_id | 1 << 31).to_le_bytes();
+        if dut.eds.writes(pdo.com, 1) && dut.download(pdo.address(1), &is_off(pdo.cob_id))?.is_ok()
+        {
+            let done = comes_with_sync(dut, pdo, false, "after bit 31 of its COB-ID became 1");
+            dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+            done?;
+            comes_with_sync(dut, pdo, true, "after bit 31 of its COB-ID became 0")?;
+        }
+        if dut.download(pdo.address(2), &[254])?.is_ok() {
+            comes_with_sync(dut, pdo, false, "after its transmission type became 254")?;
+        }
+    }
+    if has_timer && dut.download(pdo.address(5), &[50, 0])?.is_ok() {
+        for _ in 0..3 {
+            if next(dut, pdo, 100_000)?.is_none() {
+                return fail(
+                    format!(
+                        "{name} every 50 ms, by an event timer that was written in Operational"
+                    ),
+                    "none came within 100 ms",
+                );
+            }
+        }
+    }
+    dut.nmt(Command::EnterPreOperational)
+}
+
+/// Two SYNC messages in Operational are followed by this TPDO, or are not.
+fn comes_with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, wanted: bool, when: &str) -> Checked {
+    // A change may send the TPDO once.
+    dut.wait(QUIET)?;
+    let mut count = 0;
+    for _ in 0..2 {
+        dut.drain()?;
+        sync(dut)?;
+        count += u8::from(next(dut, pdo, QUIET)?.is_some());
+    }
+    ensure(
+        count == if wanted { 2 } else { 0 },
+        format!(
+            "TPDO{} {} SYNC in Operational, {when}",
+            pdo.com - 0x17FF,
+            if wanted { "with each" } else { "with no" }
+        ),
+        format!("it came with {count} of 2"),
+    )
 }
 
 /// With a transmission type from 2 on, this TPDO comes twice in twice as many SYNC messages.
@@ -152,7 +213,7 @@ fn is_sent_with(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8) -> Checked {
     let from = dut.frames.len();
     for _ in 0..2 * u16::from(kind) {
         sync(dut)?;
-        dut.wait(if kind > 10 { 5_000 } else { 20_000 })?;
+        dut.wait(5_000)?;
     }
     dut.wait(20_000)?;
     let sent = dut.frames.get(from..).unwrap_or_default().iter();

@@ -240,6 +240,10 @@ pub(super) fn register_clears(dut: &mut Dut<'_>) -> Checked {
 }
 
 fn clears_once(dut: &mut Dut<'_>) -> Checked {
+    // An error that is already present would hide this one.
+    if dut.number(0x1001, 0)? != 0 && dut.may_reset {
+        dut.reset(Command::ResetCommunication)?;
+    }
     let before = dut.number(0x1001, 0)?;
     let (node, _) = provoked(dut)?;
     let id = dut.id(0x80);

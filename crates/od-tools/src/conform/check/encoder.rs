@@ -94,7 +94,7 @@ pub(super) fn cyclic_timer(dut: &mut Dut<'_>) -> Checked {
     for (written, other) in [(views[1], views[0]), (views[0], views[1])] {
         let has_both = dut.eds.writes(written.index, written.sub)
             && dut.eds.entry(other.index, other.sub).is_some();
-        for millis in [300u16, 60].into_iter().filter(|_| has_both) {
+        for millis in [300u16, 60, 0].into_iter().filter(|_| has_both) {
             dut.set(written, &millis.to_le_bytes())?;
             let is = dut.number(other.index, other.sub)?;
             // Some devices can delay the timer by a few milliseconds.
@@ -233,7 +233,12 @@ pub(super) fn range(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn at_rest(dut: &mut Dut<'_>) -> Checked {
     const TURNS: u8 = 10;
     let entries: Vec<_> = dut.eds.dictionary().entries().collect();
-    let is_rate = |address: Address| matches!(address.index, 0x6030 | 0x6040) && address.sub > 0;
+    // 2118h is the speed of EAM in revolutions per minute (manual 001).
+    let is_own = dut.eds.has(0x2118) && super::maker::is_of(dut, &[super::maker::EAM]).is_ok();
+    let is_rate = |address: Address| match address.index {
+        0x6030 | 0x6040 => address.sub > 0,
+        index => is_own && index == 0x2118,
+    };
     let rates: Vec<Address> = entries
         .iter()
         .map(|entry| entry.address)

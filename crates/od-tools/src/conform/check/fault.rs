@@ -6,13 +6,14 @@ use super::axis::{
     Axis, CHANGE, DISABLED, ENABLE, ENABLED, FAULT, MOVE, PROFILE_POSITION, PROFILE_VELOCITY,
     QUICK_STOP, REACHED, each,
 };
-use crate::conform::dut::Dut;
+use crate::conform::dut::{Dut, is_data};
 use crate::conform::end::{Checked, ensure, lacks};
 
 /// A fault, by NMT stop with code 1 in 6007h, and its reset.
 pub(super) fn connection_lost(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_VELOCITY, |dut, axis| {
         axis.choose(dut, 0x6007, 1)?;
+        let from = dut.frames.len();
         dut.nmt(Command::Stop)?;
         dut.nmt(Command::Start)?;
         axis.shows(dut, MOVE, FAULT)?;
@@ -26,6 +27,8 @@ pub(super) fn connection_lost(dut: &mut Dut<'_>) -> Checked {
                 format!("the code of the fault in {}", axis.at(0x603F)),
                 "0 was read",
             );
+            dut.fault(done)?;
+            let done = axis.is_code_of_emcy(dut, from, code);
             dut.fault(done)?;
         }
         axis.command(dut, 0x80)?;
@@ -127,6 +130,7 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
             if has_time {
                 axis.choose(dut, 0x6066, time)?;
             }
+            let from = dut.frames.len();
             let seen = axis.strays(dut, pace, window)?;
             let when =
                 format!("with {window} in 6065h, {time} ms in 6066h and up to {greatest} in 60F4h");
@@ -147,6 +151,11 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
             };
             let done = ensure(is_right, format!("{wanted} {when}"), got);
             dut.fault(done)?;
+            if axis.has(dut, 0x603F) && axis.value(dut, 0x6041)? as u64 & FAULT.1 == FAULT.2 {
+                let code = axis.value(dut, 0x603F)? & 0xFFFF;
+                let done = axis.is_code_of_emcy(dut, from, code);
+                dut.fault(done)?;
+            }
             axis.recover(dut)?;
             axis.comes_to(dut, 0x60F4, 0, narrow / 2, "after the end of the error")?;
             axis.enable(dut)?;
@@ -164,6 +173,32 @@ struct Stray {
 }
 
 impl Axis {
+    /// 603Fh has the code of an EMCY message since the frame `from`, if there was any: one of the fault, since a node may
+    /// report the end of its communication, too.
+    fn is_code_of_emcy(self, dut: &mut Dut<'_>, from: usize, code: i64) -> Checked {
+        dut.wait(20_000)?;
+        let id = dut.id(0x80);
+        let came = dut.frames.get(from..).unwrap_or_default().iter();
+        let emcy = came.filter(|one| !one.ours && is_data(&one.frame, id));
+        let codes: Vec<i64> = emcy
+            .map(|one| {
+                i64::from(u16::from_le_bytes([
+                    one.frame.bytes()[0],
+                    one.frame.bytes()[1],
+                ]))
+            })
+            .filter(|code| *code != 0)
+            .collect();
+        ensure(
+            codes.is_empty() || codes.contains(&(code & 0xFFFF)),
+            format!(
+                "the code of an EMCY message of the fault in {}",
+                self.at(0x603F)
+            ),
+            format!("{code:04X}h was read, after EMCY {codes:04X?}"),
+        )
+    }
+
     /// Moves for two seconds and more, and watches the following error.
     fn strays(self, dut: &mut Dut<'_>, pace: i64, window: i64) -> Checked<Stray> {
         const ERROR: u64 = 1 << 13;

@@ -5,9 +5,11 @@ use od_model::{Address, Entry, Group, values};
 use od_wire::CobId;
 use od_wire::nmt::Command;
 
-use super::mapping::raw;
+use super::each_tpdo::on_each;
+use super::mapping::fillings;
 use super::store::command;
-use super::transmit::{Mapped, contradiction, is_on, mapping};
+use super::tpdo::carries_values;
+use super::transmit::{Mapped, contradiction, is_on, mapping, timed_on};
 use crate::conform::dut::{Dut, FREE};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
@@ -125,46 +127,6 @@ impl Pdo {
     }
 }
 
-/// Mappings for a PDO, with as many objects as there is room for; the first one may have an object twice.
-pub(super) fn fillings(dut: &Dut<'_>, map: u16) -> [Vec<u32>; 2] {
-    let transmits = map >= 0x1A00;
-    let entries = dut.eds.dictionary().entries();
-    let own = entries.filter(|entry| entry.address.index == map && entry.access.writable());
-    let room = own
-        .map(|entry| entry.address.sub)
-        .max()
-        .unwrap_or(0)
-        .min(64);
-    let may = |entry: &Entry| {
-        let is_its = if transmits {
-            entry.maps_to_tpdo()
-        } else {
-            entry.maps_to_rpdo()
-        };
-        is_its && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
-    };
-    let mut all: Vec<u32> = dut
-        .eds
-        .dictionary()
-        .entries()
-        .filter(may)
-        .map(|entry| raw(&entry))
-        .collect();
-    all.sort_by_key(|raw| raw & 0xFF);
-    let fit = |times: usize| {
-        let mut bits = 0;
-        let mut fitting = Vec::new();
-        for raw in all.iter().cycle().take(times * all.len()) {
-            if fitting.len() < usize::from(room) && bits + (raw & 0xFF) <= 64 {
-                bits += raw & 0xFF;
-                fitting.push(*raw);
-            }
-        }
-        fitting
-    };
-    [fit(64), fit(1)]
-}
-
 /// All changes of a case.
 struct Changes {
     all: Vec<Change>,
@@ -207,6 +169,19 @@ fn others(dut: &Dut<'_>, entry: &Entry, before: &[u8]) -> Vec<Vec<u8>> {
 /// COB-IDs, and the inhibit time of EMCY messages, which a case may change for a while.
 const SERVICES: [u16; 4] = [0x1005, 0x1012, 0x1014, 0x1015];
 
+/// Parameters that a case may change, by address: with the permission to set outputs also those of a module that act on
+/// its outputs. 1006h and 1019h depend on each other, and have a case of their own.
+fn parameters(dut: &Dut<'_>) -> Vec<Entry> {
+    let mut all = dut.eds.writable();
+    if dut.may_move {
+        all.extend(dut.eds.reactions());
+    }
+    all.retain(|entry| is_number(entry) && !matches!(entry.address.index, 0x1006 | 0x1019));
+    all.sort_by_key(|entry| entry.address);
+    all.dedup_by_key(|entry| entry.address);
+    all
+}
+
 impl Changes {
     /// Changes every value for which `which` is true and which the node lets a master change.
     fn make(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked<Self> {
@@ -222,16 +197,8 @@ impl Changes {
     }
 
     fn change(&mut self, dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
-        // 6202h turns outputs; 1019h and 1006h depend on each other, and have a case of their own.
-        let may_move = dut.may_move;
-        let is_free = |entry: &Entry| {
-            let index = entry.address.index;
-            !matches!(index, 0x1006 | 0x1019) && (may_move || !matches!(index, 0x6202 | 0x6242))
-        };
-        let mut entries = dut.eds.writable();
-        entries.retain(|entry| is_number(entry) && which(entry) && is_free(entry));
-        entries.sort_by_key(|entry| entry.address);
-        entries.dedup_by_key(|entry| entry.address);
+        let mut entries = parameters(dut);
+        entries.retain(&which);
         // Read everything first: some objects are two views of one value.
         let mut before = Vec::new();
         for entry in &entries {
@@ -578,7 +545,16 @@ pub(super) fn restores_each(dut: &mut Dut<'_>) -> Checked {
             let entry = dut.eds.entry(change.address.index, change.address.sub)?;
             dut.eds.default(&entry, dut.node)
         };
-        changes.compare(dut, default, "after the reset, the default")
+        changes.compare(dut, default, "after the reset, the default")?;
+        // The TPDOs carry what their mappings say again.
+        let carried = on_each(dut, |dut, pdo, _| {
+            timed_on(dut, pdo, 50)?;
+            carries_values(dut, pdo)
+        });
+        match carried {
+            Err(End::NotApplicable(_)) => Ok(()),
+            done => done,
+        }
     };
     changed(dut, is_saved, test, true)
 }
@@ -616,6 +592,18 @@ pub(super) fn reset_communication(dut: &mut Dut<'_>) -> Checked {
     forgets_each(dut, Command::ResetCommunication, &[Group::Communication])
 }
 
+/// Reset communication keeps every parameter of the application.
+pub(super) fn keeps_application(dut: &mut Dut<'_>) -> Checked {
+    let is_encoder = dut.eds.meets("cia406") == Some(true);
+    let which = |entry: &Entry| entry.group == Group::Application && is_of_part(entry, is_encoder);
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        dut.reset(Command::ResetCommunication)?;
+        let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
+        changes.compare(dut, other, "after reset communication, as written")
+    };
+    changed(dut, which, test, false)
+}
+
 pub(super) fn reset_node(dut: &mut Dut<'_>) -> Checked {
     let groups = [Group::Communication, Group::Application];
     forgets_each(dut, Command::ResetNode, &groups)
@@ -623,17 +611,8 @@ pub(super) fn reset_node(dut: &mut Dut<'_>) -> Checked {
 
 /// A write of a sub-object changes no other sub-object of its object, and not the same one of the next objects.
 pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
-    let may_move = dut.may_move;
-    let mut entries = dut.eds.writable();
-    entries.retain(|entry| {
-        let index = entry.address.index;
-        is_number(entry)
-            && entry.group != Group::None
-            && !matches!(index, 0x1006 | 0x1019)
-            && (may_move || !matches!(index, 0x6202 | 0x6242))
-    });
-    entries.sort_by_key(|entry| entry.address);
-    entries.dedup_by_key(|entry| entry.address);
+    let mut entries = parameters(dut);
+    entries.retain(|entry| entry.group != Group::None);
     let addresses: Vec<Address> = entries.iter().map(|entry| entry.address).collect();
     let mut any = false;
     for entry in &entries {

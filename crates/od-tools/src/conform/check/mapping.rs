@@ -613,3 +613,43 @@ pub(super) fn each_mapped(dut: &mut Dut<'_>) -> Checked {
     let pdo = first(dut)?;
     takes_each(dut, pdo, Entry::maps_to_tpdo)
 }
+
+/// Mappings for a PDO, with as many objects as there is room for; the first one may have an object twice.
+pub(super) fn fillings(dut: &Dut<'_>, map: u16) -> [Vec<u32>; 2] {
+    let transmits = map >= 0x1A00;
+    let entries = dut.eds.dictionary().entries();
+    let own = entries.filter(|entry| entry.address.index == map && entry.access.writable());
+    let room = own
+        .map(|entry| entry.address.sub)
+        .max()
+        .unwrap_or(0)
+        .min(64);
+    let may = |entry: &Entry| {
+        let is_its = if transmits {
+            entry.maps_to_tpdo()
+        } else {
+            entry.maps_to_rpdo()
+        };
+        is_its && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
+    };
+    let mut all: Vec<u32> = dut
+        .eds
+        .dictionary()
+        .entries()
+        .filter(may)
+        .map(|entry| raw(&entry))
+        .collect();
+    all.sort_by_key(|raw| raw & 0xFF);
+    let fit = |times: usize| {
+        let mut bits = 0;
+        let mut fitting = Vec::new();
+        for raw in all.iter().cycle().take(times * all.len()) {
+            if fitting.len() < usize::from(room) && bits + (raw & 0xFF) <= 64 {
+                bits += raw & 0xFF;
+                fitting.push(*raw);
+            }
+        }
+        fitting
+    };
+    [fit(64), fit(1)]
+}

@@ -536,21 +536,6 @@ pub(super) fn reset_application(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Reset communication keeps the parameters of the application.
-pub(super) fn keeps_application(dut: &mut Dut<'_>) -> Checked {
-    let (address, bytes, _) = changed_application(dut)?;
-    dut.reset(Command::ResetCommunication)?;
-    let after = dut.read(address)?;
-    ensure(
-        after == bytes,
-        format!(
-            "{} in {address} after reset communication, as written",
-            values::hex(&bytes)
-        ),
-        format!("{} was read", values::hex(&after)),
-    )
-}
-
 /// The value of a number with two limits, and another one between them.
 pub(super) fn another_of(
     dut: &mut Dut<'_>,

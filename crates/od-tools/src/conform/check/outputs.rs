@@ -207,8 +207,18 @@ pub(super) fn error_value(dut: &mut Dut<'_>) -> Checked {
         let before = wire.input.read(dut, 0x6000)?;
         let value = wire.output.read(dut, 0x6200)?;
         wire.output.write(dut, 0x6207, !value)?;
-        for (mode, wanted) in [(true, !before), (false, before)] {
+        // One bit of 6206h, and all of them.
+        for (mode, others) in [
+            (true, None),
+            (false, None),
+            (true, Some(0xFF)),
+            (false, Some(0)),
+        ] {
             wire.output.write(dut, 0x6206, mode)?;
+            if let Some(byte) = others {
+                dut.write(Address::new(0x6206, wire.output.sub), &[byte])?;
+            }
+            let wanted = before ^ mode;
             let node = watch(dut, 200)?;
             dut.nmt(Command::Start)?;
             beat(dut, node)?;

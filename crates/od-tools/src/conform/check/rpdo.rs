@@ -156,9 +156,11 @@ pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
         return fail("EMCY 8210h for an RPDO that is too short", "none came");
     }
     pdo.holds(dut, &before, ", as the RPDO was too short")?;
-    // The next valid frame ends the error.
-    let good = pdo.other(dut)?;
-    pdo.send(dut, &good.0)
+    // The next valid frame ends the error, and is used.
+    let (bytes, value) = pdo.other(dut)?;
+    pdo.send(dut, &bytes)?;
+    dut.wait(20_000)?;
+    pdo.holds(dut, &value, ", as the RPDO was long enough again")
 }
 
 /// Two different errors: an RPDO that is too short, then a missing heartbeat. The newest is the first of the history.

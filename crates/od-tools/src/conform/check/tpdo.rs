@@ -538,7 +538,7 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
 /// Maps as many objects as there is room for. A node need not take one object twice: returns where it refuses this.
 fn is_full(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16) -> Checked<Option<(Address, u32)>> {
     let count = Address::new(map, 0);
-    let [twice, once] = super::kept::fillings(dut, map);
+    let [twice, once] = super::mapping::fillings(dut, map);
     let mut refused = None;
     for entries in [twice, once] {
         let before = refused;
