@@ -373,6 +373,12 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
             continue;
         }
         let done = on(dut, pdo, |dut, map| {
+            // The whole mapping, then its first objects only.
+            for count in (1..=entries.len()).rev() {
+                super::mapping::reopen(dut, &pdo)?;
+                takes(dut, &pdo, map, &entries[..count])?;
+            }
+            super::mapping::reopen(dut, &pdo)?;
             takes(dut, &pdo, map, &entries)?;
             lengths(dut, &pdo, &entries)
         });

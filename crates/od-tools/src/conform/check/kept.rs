@@ -272,6 +272,13 @@ impl Changes {
             let _ = dut.download(address, &off)?;
         }
         if dut.download(address, &other)?.is_ok() {
+            let is = dut.read(address)?;
+            let done = ensure(
+                is == other,
+                format!("{} in {address}, as written", values::hex(&other)),
+                format!("{} was read", values::hex(&is)),
+            );
+            dut.fault(done)?;
             self.add(address, before, other);
         } else {
             let _ = dut.download(address, &before)?;

@@ -16,6 +16,8 @@ pub(super) type Makers = (u64, &'static [u64]);
 const GX: Makers = (0xEC, &[0x0A, 0x0B, 0x0C, 0x0D, 0x0E, 0x0F]);
 /// EAM: manual 001.
 pub(super) const EAM: Makers = (0x5F, &[0x70, 0x71]);
+/// The built-in module of inputs and outputs.
+pub(super) const IO: Makers = (0x5F, &[0x401]);
 /// EN580C: manual 003.
 pub(super) const EN: Makers = (0x5F, &[0x76]);
 

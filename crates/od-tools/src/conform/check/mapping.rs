@@ -50,16 +50,20 @@ pub(super) fn entries(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked<Vec<u32>> {
 
 fn opened(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked<Open> {
     let entries = entries(dut, &pdo)?;
-    switch(dut, &pdo, false)?;
-    dut.write(Address::new(pdo.map(), 0), &[0])?;
+    reopen(dut, &pdo)?;
     Ok(Open { pdo, entries })
+}
+
+/// Makes a PDO with an open mapping not valid again, and its mapping empty.
+pub(super) fn reopen(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    switch(dut, pdo, false)?;
+    dut.write(Address::new(pdo.map(), 0), &[0])
 }
 
 /// Restores the mapping, and makes the PDO valid again.
 fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
     let map = open.pdo.map();
-    switch(dut, &open.pdo, false)?;
-    dut.write(Address::new(map, 0), &[0])?;
+    reopen(dut, &open.pdo)?;
     for (sub, entry) in (1..).zip(&open.entries) {
         dut.write(Address::new(map, sub), &entry.to_le_bytes())?;
     }

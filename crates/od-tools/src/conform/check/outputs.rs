@@ -8,6 +8,7 @@ use od_wire::CobId;
 use od_wire::nmt::Command;
 
 use super::heartbeat::{beat, watch};
+use super::maker::{IO, is_of};
 use super::transmit::{is_on, mapping};
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
@@ -187,6 +188,28 @@ pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
         let before = wire.input.read(dut, 0x6000)?;
         wire.output.toggle(dut, 0x6202)?;
         wire.shows(dut, !before, "after 6202h inverted its output")
+    })
+}
+
+/// The built-in module has the time of its filters in 2000h, in milliseconds.
+pub(super) fn filter(dut: &mut Dut<'_>) -> Checked {
+    is_of(dut, &[IO])?;
+    let wires = Wire::find(dut)?;
+    dut.set(Address::new(0x2000, 0), &300u16.to_le_bytes())?;
+    each(dut, wires, |dut, wire| {
+        for is_filtered in [true, false] {
+            wire.input.write(dut, 0x6003, is_filtered)?;
+            let before = wire.input.read(dut, 0x6000)?;
+            wire.output.toggle(dut, 0x6200)?;
+            let when = format!(
+                "50 ms after its output changed, with {} in 6003h",
+                u8::from(is_filtered)
+            );
+            wire.shows(dut, before ^ !is_filtered, &when)?;
+            dut.wait(400_000)?;
+            wire.shows(dut, !before, "450 ms after its output changed")?;
+        }
+        Ok(())
     })
 }
 
@@ -573,21 +596,24 @@ fn shows_source(dut: &mut Dut<'_>, source: Address, input: u8, is_set: bool) -> 
 pub(super) fn analogue_error(dut: &mut Dut<'_>) -> Checked {
     let wires = Analogue::find(dut)?;
     each(dut, wires, |dut, wire| {
-        let error = wire.after(dut, 3 * STEP)?;
-        let value = wire.after(dut, STEP)?;
         let sub = wire.output.sub;
-        dut.set(
-            Address::new(0x6444, sub),
-            &i32::from(3 * STEP).to_le_bytes(),
-        )?;
-        for (mode, wanted) in [(1, error), (0, value)] {
+        let above = wire.after(dut, 3 * STEP)?;
+        let below = wire.after(dut, -3 * STEP)?;
+        let value = wire.after(dut, STEP)?;
+        for (mode, error, wanted) in [
+            (1, 3 * STEP, above),
+            (0, 3 * STEP, value),
+            (1, -3 * STEP, below),
+        ] {
+            dut.set(Address::new(0x6444, sub), &i32::from(error).to_le_bytes())?;
             dut.set(Address::new(0x6443, sub), &[mode])?;
             let node = watch(dut, 200)?;
             dut.nmt(Command::Start)?;
             beat(dut, node)?;
             wire.shows(dut, value, "while the heartbeat is in time")?;
             dut.wait(500_000)?;
-            let why = format!("after a heartbeat is lost, with {mode} in 6443h");
+            let why =
+                format!("after a heartbeat is lost, with {mode} in 6443h and {error} in 6444h");
             wire.shows(dut, wanted, &why)?;
         }
         Ok(())

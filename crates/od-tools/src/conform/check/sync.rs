@@ -86,7 +86,7 @@ pub(super) fn extended_frame(dut: &mut Dut<'_>) -> Checked {
 
 /// A new period takes effect while the node produces SYNC: a shorter one, and one of more than two bytes.
 pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     let id = CobId::new(raw).can_id();
     let is_sync = |frame: &Frame| frame.id() == id;
     if dut.next(200_000, is_sync)?.is_none() {
@@ -125,7 +125,7 @@ pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
 
 /// While the node produces SYNC, the CAN-ID in 1005h cannot be changed.
 pub(super) fn cob_id_fixed(dut: &mut Dut<'_>) -> Checked {
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     let on = raw | 1 << 30;
     let other = (on & !0x7FF) | u32::from(FREE + 2);
     let done = dut.cannot_change(
@@ -144,7 +144,7 @@ pub(super) fn cob_id_fixed(dut: &mut Dut<'_>) -> Checked {
 
 /// After reset communication the node produces SYNC only if 1005h says so.
 pub(super) fn producer_reset(dut: &mut Dut<'_>) -> Checked {
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     let id = CobId::new(raw).can_id();
     if dut.next(200_000, |frame| frame.id() == id)?.is_none() {
         return fail("a SYNC message every 50 ms", "none came for 200 ms");
@@ -169,7 +169,7 @@ pub(super) fn counter_restart(dut: &mut Dut<'_>) -> Checked {
     // 1019h can be written only while the period is 0.
     dut.set(Address::new(0x1006, 0), &[0; 4])?;
     dut.set(Address::new(0x1019, 0), &[240])?;
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     let id = CobId::new(raw).can_id();
     let mut last = 0;
     while last < 2 {
@@ -210,12 +210,15 @@ pub(super) fn counter_restart(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Makes the node produce SYNC every 50 ms; returns 1005h without bit 30.
-fn produce(dut: &mut Dut<'_>) -> Checked<u32> {
+/// The period at which the cases let a node produce SYNC, in microseconds.
+const PERIOD: u32 = 50_000;
+
+/// Makes the node produce SYNC with this period; returns 1005h without bit 30.
+fn produce(dut: &mut Dut<'_>, micros: u32) -> Checked<u32> {
     learn_sync(dut)?;
     let raw = dut.number(0x1005, 0)? as u32;
     dut.keep(COB_ID)?;
-    dut.set(Address::new(0x1006, 0), &50_000u32.to_le_bytes())?;
+    dut.set(Address::new(0x1006, 0), &micros.to_le_bytes())?;
     if dut
         .download(COB_ID, &(raw | 1 << 30).to_le_bytes())?
         .is_err()
@@ -229,13 +232,21 @@ fn produce(dut: &mut Dut<'_>) -> Checked<u32> {
 
 /// The node's SYNC messages, when it produces them every 50 ms.
 fn produced(dut: &mut Dut<'_>, count: usize) -> Checked<Vec<Heard>> {
-    let raw = produce(dut)?;
+    produced_every(dut, PERIOD, count)
+}
+
+/// As [`produced`], with another period in microseconds.
+fn produced_every(dut: &mut Dut<'_>, micros: u32, count: usize) -> Checked<Vec<Heard>> {
+    let raw = produce(dut, micros)?;
     let id = CobId::new(raw).can_id();
     let mut all = Vec::new();
     for _ in 0..count {
         match dut.next(200_000, |frame| frame.id() == id)? {
             Some(heard) => all.push(heard),
-            None => return fail("a SYNC message every 50 ms", "none came for 200 ms"),
+            None => {
+                let expected = format!("a SYNC message every {} ms", micros / 1000);
+                return fail(expected, "none came for 200 ms");
+            }
         }
     }
     dut.nmt(Command::EnterPreOperational)?;
@@ -295,7 +306,7 @@ pub(super) fn producer_cob_id(dut: &mut Dut<'_>) -> Checked {
 
 /// No SYNC with the period 0, and none without bit 30.
 pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     let id = CobId::new(raw).can_id();
     if dut.next(200_000, |frame| frame.id() == id)?.is_none() {
         return fail("a SYNC message every 50 ms", "none came for 200 ms");
@@ -331,7 +342,7 @@ pub(super) fn no_producer(dut: &mut Dut<'_>) -> Checked {
 
 /// A producer sends SYNC in Pre-operational, too.
 pub(super) fn producer_pre_operational(dut: &mut Dut<'_>) -> Checked {
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     dut.nmt(Command::EnterPreOperational)?;
     dut.drain()?;
     let id = CobId::new(raw).can_id();
@@ -348,7 +359,7 @@ pub(super) fn producer_pre_operational(dut: &mut Dut<'_>) -> Checked {
 
 /// A stopped producer sends no SYNC.
 pub(super) fn producer_stopped(dut: &mut Dut<'_>) -> Checked {
-    let raw = produce(dut)?;
+    let raw = produce(dut, PERIOD)?;
     let id = CobId::new(raw).can_id();
     if dut.next(200_000, |frame| frame.id() == id)?.is_none() {
         return fail("a SYNC message every 50 ms", "none came for 200 ms");
@@ -437,11 +448,22 @@ fn begins_with(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
 pub(super) fn counter(dut: &mut Dut<'_>) -> Checked {
     let (period, counter) = (Address::new(0x1006, 0), Address::new(0x1019, 0));
     dut.keep(counter)?;
-    for most in [4u8, 2, 11, 0] {
+    for (most, micros) in [
+        (4u8, PERIOD),
+        (2, PERIOD),
+        (11, PERIOD),
+        (240, 5_000),
+        (0, PERIOD),
+    ] {
         // 1019h can be written only while the period is 0.
         dut.set(period, &[0; 4])?;
+        if dut.download(period, &micros.to_le_bytes())?.is_err() {
+            continue;
+        }
+        dut.set(period, &[0; 4])?;
         dut.write(counter, &[most])?;
-        let all = produced(dut, 2 * usize::from(most) + 1)?;
+        let count = usize::from(most) + usize::from(most.min(12)) + 1;
+        let all = produced_every(dut, micros, count)?;
         dut.write(period, &[0; 4])?;
         if most == 0 {
             let with_data = all.iter().find(|heard| heard.frame.dlc() != 0);

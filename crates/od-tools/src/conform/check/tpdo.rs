@@ -86,12 +86,12 @@ pub(super) fn event_timer(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// Each TPDO comes once with every n-th SYNC, and not without SYNC.
-pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
+pub(super) fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u16) -> Checked {
     learn_sync(dut)?;
     on_each(dut, |dut, pdo, _| with_sync(dut, pdo, kind, count))
 }
 
-fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u8) -> Checked {
+fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u16) -> Checked {
     typed_on(dut, pdo, kind)?;
     starts_silent(dut, pdo)?;
     none(dut, pdo, 200_000, "no TPDO without SYNC")?;
@@ -111,6 +111,7 @@ fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u8) -> Checked {
             came.push((turn, number));
         }
     }
+    let kind = u16::from(kind);
     let wanted = count / kind;
     let is_even = came.windows(2).all(|pair| pair[1].0 - pair[0].0 == kind);
     ensure(
@@ -509,6 +510,8 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
         let kept = dut.undo.len();
         let done = timed_on(dut, &pdo, 50).and_then(|()| {
             super::mapping::on(dut, pdo, |dut, map| {
+                // The entries of its own mapping are still there.
+                carries_each_length(dut, &pdo, all.len() as u8)?;
                 match is_full(dut, &pdo, map)? {
                     None => taken += 1,
                     Some(why) => refused.push(why),
@@ -555,12 +558,8 @@ fn is_full(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16) -> Checked<Option<(Address, 
             }
         }
         let Some((address, code)) = refused else {
-            dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-            let done = carries_values(dut, pdo);
-            if !matches!(done, Err(End::Lost(_))) {
-                dut.nmt(Command::EnterPreOperational)?;
-            }
-            return done.map(|()| before);
+            carries_each_length(dut, pdo, entries.len() as u8)?;
+            return Ok(before);
         };
         if before.is_some() {
             return fail(
@@ -570,6 +569,21 @@ fn is_full(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16) -> Checked<Option<(Address, 
         }
     }
     Ok(None)
+}
+
+/// The TPDO carries its whole open mapping, then its first objects only.
+fn carries_each_length(dut: &mut Dut<'_>, pdo: &Tpdo, length: u8) -> Checked {
+    for count in (1..=length).rev() {
+        super::mapping::reopen(dut, pdo)?;
+        dut.write(Address::new(pdo.map(), 0), &[count])?;
+        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+        let done = carries_values(dut, pdo);
+        if !matches!(done, Err(End::Lost(_))) {
+            dut.nmt(Command::EnterPreOperational)?;
+        }
+        done?;
+    }
+    super::mapping::reopen(dut, pdo)
 }
 
 fn read(dut: &mut Dut<'_>, all: &[Mapped]) -> Checked<Vec<Option<u64>>> {
