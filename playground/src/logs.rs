@@ -2,7 +2,7 @@
 
 use od_runtime::Instant;
 use od_sim::diagnose::{self, BusFacts};
-use od_sim::logs::{Format, Record, What, read};
+use od_sim::logs::{BusError, Format, Record, What, read};
 use wasm_bindgen::prelude::*;
 
 use crate::crossing::{Bytes, Crosses, record};
@@ -110,7 +110,7 @@ fn records(frames: &[u8]) -> Vec<Record> {
 
 fn line(bytes: &[u8]) -> Option<Record> {
     let what = if packed::is_disturbed(bytes) {
-        What::Error
+        What::Error(BusError::Frame)
     } else {
         What::Frame(packed::frame(bytes)?)
     };

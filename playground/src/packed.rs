@@ -100,7 +100,7 @@ pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_sim::logs::Record) {
     let nothing = Frame::standard(0, &[0; 8]);
     let (frame, disturbed) = match &line.what {
         What::Frame(frame) => (frame, 0),
-        What::Error => (&nothing, DISTURBED),
+        What::Error(_) => (&nothing, DISTURBED),
     };
     push(batch, line.at, None, frame);
     if let Some(flags) = batch.get_mut(start + at::FLAGS) {

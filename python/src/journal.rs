@@ -61,7 +61,7 @@ impl Journal {
                         let words = decoder.explain(devices, &frame);
                         format!("{at:?} {direction} {:<21}  {words}", frame.to_string())
                     }
-                    What::Error => format!("{at:?} {direction} error frame"),
+                    What::Error(error) => format!("{at:?} {direction} {}", error.text()),
                 }
             })
             .collect()
@@ -76,6 +76,6 @@ impl Journal {
 pub(crate) fn frame(record: &Record) -> Option<Frame> {
     match record.what {
         What::Frame(frame) => Some(frame),
-        What::Error => None,
+        What::Error(_) => None,
     }
 }

@@ -307,7 +307,7 @@ impl Port {
                     frame.data(),
                 )
             }
-            What::Error => (PROTOCOL_ERROR, false, false, true, 8, &ERROR_DATA[..]),
+            What::Error(_) => (PROTOCOL_ERROR, false, false, true, 8, &ERROR_DATA[..]),
         };
         let data = if remote {
             PyByteArray::new(py, &[])

@@ -5,7 +5,7 @@ use std::thread::{self, Thread, ThreadId};
 use std::time::{Duration, Instant as Clock};
 
 use od_sim::bus::Bus;
-use od_sim::logs::What;
+use od_sim::logs::{BusError, What};
 use od_sim::wire::Condition;
 use od_wire::{Frame, Instant};
 
@@ -242,7 +242,7 @@ impl State {
             if one.device.is_none() && one.bus_off {
                 self.senders.pop_front();
             }
-            self.hear(one.at, What::Error, None);
+            self.hear(one.at, What::Error(BusError::Frame), None);
         }
         while let Some(sent) = self.bus.poll() {
             let from = match sent.device {
@@ -262,7 +262,7 @@ impl State {
             let own = from == Some(one.id);
             let passes = match what {
                 What::Frame(frame) => passes(one.filters.as_deref(), frame.id()),
-                What::Error => true,
+                What::Error(_) => true,
             };
             if !passes || (own && !one.own) {
                 continue;

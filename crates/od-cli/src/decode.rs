@@ -73,12 +73,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
         skipped += log.skipped.len();
         for record in &log.records {
-            let What::Frame(frame) = record.what else {
-                let is_all = args.filter.is_empty() && args.format == Format::Text;
-                if is_all {
-                    output.line(&format!("{:>12}  error frame", format!("{:?}", record.at)))?;
+            let frame = match record.what {
+                What::Frame(frame) => frame,
+                What::Error(error) => {
+                    let is_all = args.filter.is_empty() && args.format == Format::Text;
+                    if is_all {
+                        let at = format!("{:?}", record.at);
+                        output.line(&format!("{at:>12}  {}", error.text()))?;
+                    }
+                    continue;
                 }
-                continue;
             };
             let Some(told) = narrator.tell(record.at, frame, record.sent) else {
                 continue;

@@ -153,7 +153,7 @@ fn lines(args: &Args, records: &[Record]) -> Result<Vec<String>, Failure> {
             .tell(record.at, frame, record.sent)
             .map(|told| told.line())
             .unwrap_or_default(),
-        What::Error => format!("{:>12}  error frame", format!("{:?}", record.at)),
+        What::Error(error) => format!("{:>12}  {}", format!("{:?}", record.at), error.text()),
     });
     Ok(told.collect())
 }

@@ -160,7 +160,7 @@ pub(crate) fn replay(args: &Replay) -> Result<(), Failure> {
     }
     let frames = log.records.iter().filter_map(|record| match record.what {
         What::Frame(frame) => Some((record.at, frame)),
-        What::Error => None,
+        What::Error(_) => None,
     });
     let frames: Vec<_> = frames.collect();
     let mut bus = args.bus.open()?;

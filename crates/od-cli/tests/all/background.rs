@@ -21,7 +21,7 @@ fn logged(path: &Path) -> Vec<String> {
     };
     let frames = log.records.iter().filter_map(|record| match record.what {
         logs::What::Frame(frame) => Some(frame.to_string()),
-        logs::What::Error => None,
+        logs::What::Error(_) => None,
     });
     frames.collect()
 }

@@ -7,7 +7,7 @@ use od_sim::VirtualDevice;
 use od_sim::bus::Bus;
 use od_sim::diagnose::{BusFacts, Incident, diagnose, rules};
 use od_sim::logs::candump::parse_frame;
-use od_sim::logs::{Record, What};
+use od_sim::logs::{BusError, Record, What};
 use od_sim::script::{Host, Origin, Script, run};
 use od_wire::{Frame, Instant, NodeId};
 
@@ -121,7 +121,8 @@ impl Host for Recorder {
 
     fn look(&mut self, bus: &mut Bus) {
         while let Some(one) = bus.line.poll() {
-            self.0.push(record(one.at.as_micros(), What::Error));
+            self.0
+                .push(record(one.at.as_micros(), What::Error(BusError::Frame)));
         }
     }
 }
@@ -223,7 +224,7 @@ fn the_command_shows_causes_and_sets_the_exit_code() {
         .into_iter()
         .filter_map(|record| match record.what {
             What::Frame(frame) => Some(format!("({:?}) can0 {frame}\n", record.at)),
-            What::Error => None,
+            What::Error(_) => None,
         });
     std::fs::write(&path, lines.collect::<String>()).expect("a log");
     let path = path.display().to_string();
@@ -339,6 +340,55 @@ fn a_repeated_request_with_two_responses_has_a_late_response() {
         };
         assert_eq!(causes, [("late-response", after)]);
     }
+}
+
+/// SocketCAN says what went wrong: without it, error frames between frames look like a missing terminator.
+#[test]
+fn an_adapter_without_an_acknowledge_is_alone() {
+    let log = |error: &str| {
+        let mut text = String::new();
+        for number in 0..40 {
+            text += &format!("({number}.0) can0 705#05\n({number}.1) can0 {error}\n");
+        }
+        let log = od_sim::logs::read(text.as_bytes()).expect("a log");
+        let found = diagnose(&log.records, BusFacts::default());
+        found
+            .into_iter()
+            .map(|one| (one.text, one.causes[0].id))
+            .collect::<Vec<_>>()
+    };
+    let frames = "40 error frames and 39 frames between them".to_owned();
+    assert_eq!(
+        log("20000020#0000000000000000"),
+        [(frames.clone(), "no-acknowledge")]
+    );
+    assert_eq!(log("20000088#0000040000000000"), [(frames, "terminator")]);
+    let passive = "the adapter is error passive".to_owned();
+    assert_eq!(log("20000004#0030000000008080"), [(passive, "terminator")]);
+    assert_eq!(log("20000002#0500000000000000"), []);
+}
+
+/// A probe reads each object once. A client that reads a missing object again and again needs it.
+#[test]
+fn a_missing_object_that_is_read_again_and_again_is_a_fault() {
+    let log = |times: u64| {
+        let records = (0..times).flat_map(|number| {
+            let at = number * 100_000;
+            let frame = |text| What::Frame(parse_frame(text).expect("a frame"));
+            [
+                record(at, frame("601#4002650000000000")),
+                record(at + 1000, frame("581#8002650000000206")),
+            ]
+        });
+        let found = diagnose(&records.collect::<Vec<_>>(), BusFacts::default());
+        found
+            .into_iter()
+            .map(|one| (one.text, one.causes[0].id))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(log(2), []);
+    let text = "node 1 refuses to read 6502h:00 3 times: 06020000h, object does not exist";
+    assert_eq!(log(3), [(text.to_owned(), "refused")]);
 }
 
 /// Heartbeats and PDOs in an even order are no two senders: without times their distance is not known.

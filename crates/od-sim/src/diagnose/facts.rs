@@ -7,7 +7,7 @@ use od_model::{Address, Dictionary};
 use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, Instant};
 
-use crate::logs::{Record, What};
+use crate::logs::{BusError, Record, What};
 use crate::sdo::{Message, Observer, default_sdo};
 use crate::wire::bits::bits;
 
@@ -218,7 +218,7 @@ impl<'a> Facts<'a> {
                 place,
             };
             match &record.what {
-                What::Error => facts.errors.push(seen),
+                What::Error(_) => facts.errors.push(seen),
                 What::Frame(frame) => {
                     let len = bits(frame).len() as u32 + 3;
                     lengths.push((seen.at, len));
@@ -326,10 +326,17 @@ impl<'a> Facts<'a> {
         count(&self.frames) + count(&self.errors) > count(sent)
     }
 
+    pub(super) fn error(&self, place: usize) -> Option<BusError> {
+        match self.records.get(place)?.what {
+            What::Error(error) => Some(error),
+            What::Frame(_) => None,
+        }
+    }
+
     pub(super) fn frame(&self, place: usize) -> Option<&Frame> {
         match &self.records.get(place)?.what {
             What::Frame(frame) => Some(frame),
-            What::Error => None,
+            What::Error(_) => None,
         }
     }
 

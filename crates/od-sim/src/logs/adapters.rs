@@ -175,7 +175,7 @@ mod tests {
         let log = read(text.as_bytes()).expect("a log");
         let records = log.records.iter().map(|record| match record.what {
             What::Frame(frame) => format!("{} {frame}", record.at.as_micros() / 1000),
-            What::Error => "error".into(),
+            What::Error(_) => "error".into(),
         });
         let problems = log.skipped.iter().map(|problem| format!("{problem}"));
         (

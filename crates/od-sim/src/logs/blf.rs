@@ -314,7 +314,7 @@ mod tests {
                 let way = if record.sent { "->" } else { "<-" };
                 format!("{:?} {way} {frame}", record.at)
             }
-            What::Error => format!("{:?} error", record.at),
+            What::Error(_) => format!("{:?} error", record.at),
         };
         log.records.iter().map(said).collect()
     }

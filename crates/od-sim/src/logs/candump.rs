@@ -15,7 +15,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{CanId, Frame, Instant};
 
-use super::record::{ERROR, What};
+use super::record::{BusError, ERROR, What};
 use super::stamp;
 use crate::cursor::Cursor;
 use crate::grammar::problem::Problem;
@@ -44,12 +44,12 @@ pub fn parse_line(line: &str) -> Result<LogLine, Problem> {
     } = logged(line)?;
     let (column, word) = frame.column;
     match frame.what {
-        What::Frame(frame) => Ok(LogLine {
+        Some(What::Frame(frame)) => Ok(LogLine {
             at,
             interface: interface.map(str::to_owned),
             frame,
         }),
-        What::Error => Err(Problem::at(
+        Some(What::Error(_)) | None => Err(Problem::at(
             column,
             format!("`{word}` is an error frame"),
             "remove the line; an error frame cannot be sent",
@@ -68,7 +68,8 @@ pub(super) struct Logged<'t> {
 
 /// Event on the bus, and the word that begins it.
 pub(super) struct Placed<'t> {
-    pub(super) what: What,
+    /// `None`: an event of the adapter that is no error.
+    pub(super) what: Option<What>,
     column: (usize, &'t str),
 }
 
@@ -102,7 +103,7 @@ pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
         interface: None,
         sent: false,
         frame: Placed {
-            what: What::Error,
+            what: None,
             column: (column, word),
         },
     };
@@ -112,14 +113,17 @@ pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
         logged.frame.column = next_word(&mut rest, FRAME)?;
     }
     let (column, word) = logged.frame.column;
-    if is_error(word) {
+    if let Some(id) = error_id(word) {
+        let error = BusError::of_socketcan(id, error_data(word, rest));
+        logged.frame.what = error.map(What::Error);
         return Ok(logged);
     }
-    logged.frame.what = What::Frame(if word.contains('#') {
+    let frame = if word.contains('#') {
         parse_frame(word).map_err(|error| error.shifted(column - 1))?
     } else {
         screen(column, word, &mut rest)?
-    });
+    };
+    logged.frame.what = Some(What::Frame(frame));
     // On a screen the length says where the data ends.
     let is_over = !word.contains('#') && screen_byte(1, rest.peek()).is_err();
     logged.sent |= !is_over && end(rest)?;
@@ -140,11 +144,24 @@ fn direction(rest: &mut Cursor<'_>) -> bool {
     sent
 }
 
-/// Returns whether a flag in the CAN-ID marks an error frame of SocketCAN.
-fn is_error(frame: &str) -> bool {
+/// The CAN-ID of an error message of SocketCAN, which a flag marks.
+fn error_id(frame: &str) -> Option<u32> {
     let id = frame.split('#').next().unwrap_or_default();
     let raw = u32::from_str_radix(id, 16).ok().filter(|_| id.len() == 8);
-    raw.is_some_and(|raw| raw & ERROR != 0)
+    raw.filter(|raw| raw & ERROR != 0)
+}
+
+/// The bytes of an error message, in the log form, or after its length on a screen.
+fn error_data(frame: &str, rest: Cursor<'_>) -> [u8; 8] {
+    if let Some((_, data)) = frame.split_once('#') {
+        return parse_data(data).map(|(bytes, _)| bytes).unwrap_or_default();
+    }
+    let words = rest.text.split_whitespace().skip(1);
+    let mut data = [0; 8];
+    for (byte, word) in data.iter_mut().zip(words) {
+        *byte = u8::from_str_radix(word, 16).unwrap_or_default();
+    }
+    data
 }
 
 const FRAME: &str = "write a frame such as 601#4004600000000000 or 701#R";

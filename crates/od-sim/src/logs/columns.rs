@@ -176,7 +176,7 @@ mod tests {
         let log = read(text.as_bytes()).expect("a log");
         let told = |what| match what {
             What::Frame(frame) => format!("{frame}"),
-            What::Error => "error".into(),
+            What::Error(_) => "error".into(),
         };
         let records = log.records.iter().map(|record| {
             let sent = if record.sent { " sent" } else { "" };

@@ -223,7 +223,7 @@ mod tests {
         let records = log.records.iter().map(|record| {
             let what = match record.what {
                 crate::logs::What::Frame(frame) => format!("{frame}"),
-                crate::logs::What::Error => "error".into(),
+                crate::logs::What::Error(_) => "error".into(),
             };
             let sent = if record.sent { " sent" } else { "" };
             format!("{} {what}{sent}", record.at.as_micros() / 1000)

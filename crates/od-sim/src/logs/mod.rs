@@ -18,5 +18,5 @@ mod trc;
 mod write;
 
 pub use read::{Log, read};
-pub use record::{Record, Unread, What};
+pub use record::{BusError, Record, Unread, What};
 pub use write::Format;

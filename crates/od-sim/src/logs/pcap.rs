@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::{CanId, Frame, Instant};
 
-use super::record::{ERROR, EXTENDED, FD, REMOTE, Record, Unread};
+use super::record::{BusError, ERROR, EXTENDED, Entry, FD, REMOTE, Record, Unread, What};
 
 /// The link type of SocketCAN frames in a capture.
 pub(super) const LINK: u16 = 227;
@@ -54,7 +54,8 @@ impl Capture {
         let frame = bytes.get(start..).unwrap_or_default();
         match protocol {
             Some(CAN) if !is_fd(frame) => match socketcan(at, frame) {
-                Some(record) => self.records.push(record.sent(sent)),
+                Some(Entry::Record(record)) => self.records.push(record.sent(sent)),
+                Some(_) => self.others += 1,
                 None => self.skip("it is too short for a CAN frame".into()),
             },
             Some(CAN | CAN_FD) => self.skip(FD.into()),
@@ -165,12 +166,19 @@ fn records(file: File<'_>, nanos: bool, link: u16) -> Result<Capture, String> {
 }
 
 /// One frame of a capture: CAN-ID with flags, big endian, then length and data.
-fn socketcan(at: Instant, bytes: &[u8]) -> Option<Record> {
+fn socketcan(at: Instant, bytes: &[u8]) -> Option<Entry> {
     let raw = u32::from_be_bytes(bytes.get(..4)?.try_into().ok()?);
     let dlc = (*bytes.get(4)?).min(8);
     let data = bytes.get(8..)?;
     if raw & ERROR != 0 {
-        return Some(Record::error(at));
+        let error = BusError::of_socketcan(raw, data.get(..8)?.try_into().ok()?);
+        return Some(match error {
+            Some(error) => Entry::Record(Record {
+                what: What::Error(error),
+                ..Record::error(at)
+            }),
+            None => Entry::Other,
+        });
     }
     let id = if raw & EXTENDED != 0 {
         CanId::extended(raw & 0x1FFF_FFFF)
@@ -182,5 +190,5 @@ fn socketcan(at: Instant, bytes: &[u8]) -> Option<Record> {
     } else {
         Frame::new(id, &data[..data.len().min(usize::from(dlc))])
     };
-    Some(Record::received(at, frame?))
+    Some(Entry::Record(Record::received(at, frame?)))
 }

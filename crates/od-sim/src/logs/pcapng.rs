@@ -129,8 +129,13 @@ pub(super) fn add(out: &mut Vec<u8>, record: &Record) {
 }
 
 fn packet_body(out: &mut Vec<u8>, record: &Record) {
+    let data;
     let (id, dlc, data) = match &record.what {
-        What::Error => (ERROR | 8, 8, &[0, 0, 4, 0, 0, 0, 0, 0][..]),
+        What::Error(error) => {
+            let (id, bytes) = error.socketcan();
+            data = bytes;
+            (ERROR | id, 8, &data[..])
+        }
         What::Frame(frame) => {
             let extended = if frame.id().is_extended() {
                 EXTENDED

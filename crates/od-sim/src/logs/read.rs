@@ -205,7 +205,8 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, bool)
                 return Ok(Entry::Nothing);
             }
             let read = line(text, lacks_times);
-            is_error = matches!(&read, Ok(Entry::Record(record)) if record.what == What::Error);
+            is_error =
+                matches!(&read, Ok(Entry::Record(record)) if matches!(record.what, What::Error(_)));
             read
         });
         (reader as Reader<'t>, true)
@@ -230,9 +231,12 @@ fn line(text: &str, lacks_times: bool) -> Result<Entry, String> {
         None if lacks_times => Instant::ZERO,
         at => at.ok_or(missing)?,
     };
-    Ok(Entry::Record(Record {
-        at,
-        sent: logged.sent,
-        what: logged.frame.what,
-    }))
+    Ok(match logged.frame.what {
+        Some(what) => Entry::Record(Record {
+            at,
+            sent: logged.sent,
+            what,
+        }),
+        None => Entry::Other,
+    })
 }

@@ -21,8 +21,70 @@ pub struct Record {
 pub enum What {
     /// A frame.
     Frame(Frame),
+    /// An error.
+    Error(BusError),
+}
+
+/// What an adapter reports about an error on the bus. Only logs of SocketCAN tell one from the other; in all others it is an
+/// error frame.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum BusError {
     /// An error frame.
-    Error,
+    Frame,
+    /// No node acknowledged a frame of the adapter.
+    NoAcknowledge,
+    /// The adapter has counted 96 errors.
+    Warning,
+    /// The adapter has counted 128 errors: it is error passive.
+    Passive,
+    /// The adapter has counted 256 errors: it is bus-off, and sends and receives nothing.
+    BusOff,
+}
+
+impl BusError {
+    /// The error in a few words.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Frame => "error frame",
+            Self::NoAcknowledge => "error frame: no acknowledge",
+            Self::Warning => "the adapter has counted 96 errors",
+            Self::Passive => "the adapter is error passive",
+            Self::BusOff => "the adapter is bus-off",
+        }
+    }
+
+    /// Returns whether a frame was destroyed; otherwise only the state of the adapter has changed.
+    pub(crate) const fn is_frame(self) -> bool {
+        matches!(self, Self::Frame | Self::NoAcknowledge)
+    }
+
+    /// Reads an error message of SocketCAN: the classes in its CAN-ID, and eight bytes (`linux/can/error.h`). Events that are
+    /// no error have none: lost arbitration, a restart, a full buffer.
+    pub(super) const fn of_socketcan(id: u32, data: [u8; 8]) -> Option<Self> {
+        const ACKNOWLEDGE_SLOT: u8 = 0x19;
+        let [_, state, _, place, ..] = data;
+        Some(match id {
+            _ if id & 0x040 != 0 => Self::BusOff,
+            _ if id & 0x020 != 0 || id & 0x008 != 0 && place == ACKNOWLEDGE_SLOT => {
+                Self::NoAcknowledge
+            }
+            _ if id & 0x098 != 0 => Self::Frame,
+            _ if id & 0x004 != 0 && state & 0x30 != 0 => Self::Passive,
+            _ if id & 0x004 != 0 && state & 0x0C != 0 => Self::Warning,
+            _ => return None,
+        })
+    }
+
+    /// The classes and the bytes of its message of SocketCAN.
+    pub(super) const fn socketcan(self) -> (u32, [u8; 8]) {
+        match self {
+            Self::Frame => (0x008, [0, 0, 4, 0, 0, 0, 0, 0]),
+            Self::NoAcknowledge => (0x020, [0; 8]),
+            Self::Warning => (0x004, [0, 0x0C, 0, 0, 0, 0, 0, 0]),
+            Self::Passive => (0x004, [0, 0x30, 0, 0, 0, 0, 0, 0]),
+            Self::BusOff => (0x040, [0; 8]),
+        }
+    }
 }
 
 impl Record {
@@ -39,7 +101,7 @@ impl Record {
         Self {
             at,
             sent: false,
-            what: What::Error,
+            what: What::Error(BusError::Frame),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::prelude::v1::*;
 
-use super::record::{Record, What};
+use super::record::{ERROR, Record, What};
 use super::{candump, pcapng};
 
 /// File format of a log.
@@ -102,7 +102,11 @@ impl Format {
         let line = match record.what {
             _ if self == Self::Pcapng => return pcapng::add(out, record),
             What::Frame(frame) => candump::format_line(at, "can0", &frame),
-            What::Error => format!("({at:?}) can0 20000008#0000040000000000"),
+            What::Error(error) => {
+                let (id, data) = error.socketcan();
+                let data: String = data.iter().map(|byte| format!("{byte:02X}")).collect();
+                format!("({at:?}) can0 {:08X}#{data}", ERROR | id)
+            }
         };
         out.extend_from_slice(line.as_bytes());
         out.push(b'\n');

@@ -2,7 +2,7 @@
 //! and a log written in any format reads the same.
 
 use od_runtime::{CanId, Frame, Instant};
-use od_sim::logs::{Format, Log, Record, What, read};
+use od_sim::logs::{BusError, Format, Log, Record, What, read};
 
 use crate::target::Target;
 
@@ -70,7 +70,7 @@ fn records() -> Vec<Record> {
     ];
     let remote = Frame::remote(CanId::standard(0x701), 1);
     let whats = frames.into_iter().chain(remote).map(What::Frame);
-    let whats = whats.chain([What::Error]);
+    let whats = whats.chain([What::Error(BusError::Frame)]);
     let record = |(at, what)| Record {
         at: Instant::from_micros(at * 100_137),
         sent: at % 2 == 1,

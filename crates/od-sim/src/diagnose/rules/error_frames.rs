@@ -7,6 +7,7 @@ use std::prelude::v1::*;
 use crate::diagnose::facts::{Facts, Seen};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
+use crate::logs::BusError;
 
 pub(super) const RULE: Rule = Rule {
     name: "error-frames",
@@ -34,7 +35,12 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
     let first = facts.frames.partition_point(|seen| seen.at < begin);
     let last = facts.frames.partition_point(|seen| seen.at <= end);
     let good = last.saturating_sub(first);
-    let count = errors.len();
+    let kinds = || errors.iter().filter_map(|seen| facts.error(seen.place));
+    let count = kinds().filter(|kind| kind.is_frame()).count();
+    let lone = kinds()
+        .filter(|kind| *kind == BusError::NoAcknowledge)
+        .count();
+    let worst = kinds().filter(|kind| !kind.is_frame()).max();
     // Sequences of error frames without another frame between them.
     let runs = errors.chunk_by(|a, b| {
         facts.frames.partition_point(|seen| seen.place < a.place)
@@ -47,6 +53,7 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
         .last()
         .is_some_and(|seen| seen.at > end.plus_micros(calm));
     let text = match (count, good) {
+        (0, _) => worst.map_or("errors", BusError::text).to_owned(),
         (1, _) => "1 error frame".to_owned(),
         (_, 1) => format!("{count} error frames and 1 frame between them"),
         _ => format!("{count} error frames and {good} frames between them"),
@@ -71,8 +78,11 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
         "disturbances from outside, or a bad contact",
         "shield, ground and connectors, and whether the errors come with a drive or a valve that switches",
     );
-    let is_noise = count < 5 && good > 20 * count;
-    let causes = if is_noise {
+    let is_many = worst.is_some_and(|worst| worst >= BusError::Passive);
+    let is_noise = errors.len() < 5 && good > 20 * errors.len() && !is_many;
+    let causes = if lone * 2 > count {
+        [silence, rate, terminator]
+    } else if is_noise {
         [noise, terminator, rate]
     } else if good == 0 && !had_frames_before(facts, errors) {
         [silence, rate, terminator]

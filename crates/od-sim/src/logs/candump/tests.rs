@@ -54,6 +54,63 @@ fn the_three_forms_read_the_same() {
     check("can0 181#0102030405060708_F", "181#0102030405060708");
 }
 
+/// The classes of `linux/can/error.h`. Lost arbitration is how CAN works, and a restart is no error.
+#[test]
+fn an_error_of_socketcan_says_which_one_it_is() {
+    let lines = [
+        (
+            " (0.1)  can0  20000088   [8]  00 00 90 00 00 00 00 00   ERRORFRAME",
+            Some(BusError::Frame),
+        ),
+        (
+            " (0.1)  can0  RX - -  200000A8   [8]  00 00 80 19 00 00 08 00   ERRORFRAME",
+            Some(BusError::NoAcknowledge),
+        ),
+        (
+            "(0.1) can0 20000020#0000000000000000",
+            Some(BusError::NoAcknowledge),
+        ),
+        (
+            "(0.1) can0 20000004#0008000000006000",
+            Some(BusError::Warning),
+        ),
+        (
+            " (0.1)  can0  20000004   [8]  00 20 00 00 00 00 80 00   ERRORFRAME",
+            Some(BusError::Passive),
+        ),
+        (
+            "(0.1) can0 20000040#0000000000000000",
+            Some(BusError::BusOff),
+        ),
+        (
+            " (0.1)  can0  20000002   [8]  05 00 00 00 00 00 00 00   ERRORFRAME",
+            None,
+        ),
+        ("(0.1) can0 20000100#0000000000000000", None),
+        (
+            " (0.1)  can0  20000004   [8]  00 40 00 00 00 00 5F 00   ERRORFRAME",
+            None,
+        ),
+    ];
+    for (line, wanted) in lines {
+        let text = format!("{line}\n(0.2) can0 701#05\n");
+        let log = crate::logs::read(text.as_bytes()).expect("a log");
+        let found = match log.records[0].what {
+            What::Error(error) => Some(error),
+            What::Frame(_) => None,
+        };
+        assert_eq!(
+            (found, log.others),
+            (wanted, usize::from(wanted.is_none())),
+            "{line}"
+        );
+        for format in [crate::logs::Format::Candump, crate::logs::Format::Pcapng] {
+            let written = crate::logs::read(&format.write(&log.records));
+            assert_eq!(written.expect("a log").records, log.records, "{line}");
+        }
+    }
+}
+
 /// People explain the frames of a log that they paste into a question, and others quote it.
 #[test]
 fn a_remark_may_follow_a_frame() {
@@ -81,7 +138,7 @@ fn a_log_may_have_other_lines() {
         \x20 can0  701   [1]  05\n```\n";
     let log = crate::logs::read(text.as_bytes()).expect("a log");
     assert_eq!(log.records.len(), 3);
-    assert_eq!(log.records[1].what, What::Error);
+    assert_eq!(log.records[1].what, What::Error(BusError::Warning));
     let problems: Vec<_> = log.skipped.iter().map(ToString::to_string).collect();
     assert_eq!(problems, ["line 6: candump lost frames here: 12"]);
 }

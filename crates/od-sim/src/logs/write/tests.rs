@@ -5,7 +5,7 @@ use std::vec;
 
 use od_wire::{CanId, Frame, Instant};
 
-use crate::logs::{Format, Log, Record, What, read};
+use crate::logs::{BusError, Format, Log, Record, What, read};
 
 fn records() -> Vec<Record> {
     let frame = |at, sent, frame| Record {
@@ -33,7 +33,7 @@ fn records() -> Vec<Record> {
         Record {
             at: Instant::from_micros(1_600_000),
             sent: false,
-            what: What::Error,
+            what: What::Error(BusError::Frame),
         },
     ]
 }
@@ -218,7 +218,7 @@ fn a_candump_log_without_times_is_read_in_order() {
     assert_eq!(log.skipped, []);
     let shown = log.records.iter().map(|record| match record.what {
         What::Frame(frame) => format!("{:?} {frame}", record.at.as_micros()),
-        What::Error => String::from("error"),
+        What::Error(_) => String::from("error"),
     });
     let wanted = [
         "0 603#4018100100000000",
@@ -253,7 +253,7 @@ fn times_of_day_become_times_from_the_start() {
 fn shown(log: &Log) -> Vec<String> {
     let shown = log.records.iter().map(|record| match record.what {
         What::Frame(frame) => frame.to_string(),
-        What::Error => String::from("error"),
+        What::Error(_) => String::from("error"),
     });
     shown.collect()
 }
