@@ -6,7 +6,7 @@ use od_wire::nmt::Command;
 
 use super::heartbeat::{emcy, emcy_since, sends_emcy};
 use super::mapping::{on, raw};
-use super::transmit::{Tpdo, contradiction, is_on, learn_sync, mapping, sync};
+use super::transmit::{Tpdo, contradiction, is_on, learn_sync, mapping, switch, sync};
 use crate::conform::dut::{Dut, FREE};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks, skip};
 use crate::conform::sdo::abort_text;
@@ -229,10 +229,10 @@ fn ignores(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
         dut.nmt(Command::Start)?;
         changed.holds(dut, false, &format!(", as RPDO{number} came in {state}"))?;
     }
-    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    switch(dut, pdo, false)?;
     changed.send(dut, pdo)?;
     changed.holds(dut, false, &format!(", as RPDO{number} is off"))?;
-    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    switch(dut, pdo, true)?;
     changed.send(dut, pdo)?;
     changed.holds(dut, true, &format!(", as RPDO{number} is on again"))?;
     changed.reset(dut)?;

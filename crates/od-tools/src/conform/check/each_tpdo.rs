@@ -6,7 +6,7 @@ use od_wire::nmt::Command;
 
 use super::transmit::{
     Tpdo, contradiction, event_driven, gaps, is_on, learn_sync, mapping, next, none, starts_silent,
-    sync,
+    switch, sync,
 };
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
@@ -90,7 +90,7 @@ fn is_silent_while_off(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     if !dut.eds.writes(pdo.com, 1) {
         return Ok(());
     }
-    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    switch(dut, pdo, false)?;
     dut.nmt(Command::Start)?;
     let expected = format!(
         "no TPDO{} while bit 31 of its COB-ID is set",

@@ -152,10 +152,20 @@ pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
     let (pdo, before) = send_short(dut)?;
-    if emcy(dut, 0x8210, 200_000)?.is_none() && dut.eds.has(0x1014) {
+    let came = emcy(dut, 0x8210, 200_000)?.is_some();
+    if !came && dut.eds.has(0x1014) {
         return fail("EMCY 8210h for an RPDO that is too short", "none came");
     }
     pdo.holds(dut, &before, ", as the RPDO was too short")?;
+    if came && dut.eds.entry(0x1003, 1).is_some() {
+        let newest = dut.number(0x1003, 1)?;
+        let done = ensure(
+            newest & 0xFFFF == 0x8210,
+            "8210h in 1003h:01, the newest error",
+            format!("{newest:08X}h was read"),
+        );
+        dut.fault(done)?;
+    }
     // The next valid frame ends the error, and is used.
     let (bytes, value) = pdo.other(dut)?;
     pdo.send(dut, &bytes)?;

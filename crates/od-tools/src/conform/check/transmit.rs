@@ -120,6 +120,19 @@ pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     lacks(why)
 }
 
+/// Sets or clears bit 31 of the COB-ID of a PDO, which shows it.
+pub(super) fn switch(dut: &mut Dut<'_>, pdo: &Tpdo, on: bool) -> Checked {
+    let bit = if on { 0 } else { 1 << 31 };
+    let wanted = pdo.cob_id | bit;
+    dut.write(pdo.address(1), &wanted.to_le_bytes())?;
+    let is = dut.number(pdo.com, 1)? as u32;
+    ensure(
+        is == wanted,
+        format!("{wanted:08X}h in {}, as written", pdo.address(1)),
+        format!("{is:08X}h was read"),
+    )
+}
+
 /// The first TPDO, sent only by its event timer, at this interval in milliseconds.
 pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
     let pdo = first(dut)?;
