@@ -271,6 +271,16 @@ impl Dut<'_> {
         Ok(())
     }
 
+    /// Switches the power of the node off and on, and waits for the boot-up message.
+    pub(crate) fn power_cycle(&mut self) -> Checked {
+        self.power(false)?;
+        self.wait(500_000)?;
+        self.drain()?;
+        let from = self.now();
+        self.power(true)?;
+        self.booted(from)
+    }
+
     /// Waits for the boot-up message.
     pub(crate) fn booted(&mut self, from: Instant) -> Checked {
         let id = self.id(0x700);

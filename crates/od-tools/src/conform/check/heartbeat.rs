@@ -212,16 +212,16 @@ pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     reports_silence(dut, node, 1000)
 }
 
-/// Two entries of 1016h at once: each of their nodes is missed while the other one sends its heartbeat.
-pub(super) fn consumer_two(dut: &mut Dut<'_>) -> Checked {
-    let all = consumers(dut)?;
+/// All entries of 1016h at once, eight at most: each of their nodes is missed while the others send their heartbeats.
+pub(super) fn consumer_together(dut: &mut Dut<'_>) -> Checked {
+    let mut all = consumers(dut)?;
+    all.truncate(8);
     let own = dut.node.raw();
     sends_emcy(dut)?;
-    let nodes = [104, 105, 106]
-        .into_iter()
+    let nodes: Vec<u8> = (104..)
         .filter(|node| *node != own)
-        .take(2);
-    let nodes: Vec<u8> = nodes.collect();
+        .take(all.len())
+        .collect();
     for (address, node) in all.iter().zip(&nodes) {
         dut.set(*address, &[200, 0, *node, 0])?;
     }
@@ -244,6 +244,24 @@ pub(super) fn consumer_two(dut: &mut Dut<'_>) -> Checked {
         }
     }
     Ok(())
+}
+
+/// After the heartbeats come again, 1001h has the value from before the error.
+pub(super) fn consumer_ends(dut: &mut Dut<'_>) -> Checked {
+    let before = dut.number(0x1001, 0)?;
+    let node = watch(dut, 200)?;
+    dut.nmt(Command::Start)?;
+    reports_silence(dut, node, 200)?;
+    for _ in 0..3 {
+        beat(dut, node)?;
+        dut.wait(50_000)?;
+    }
+    let after = dut.number(0x1001, 0)?;
+    ensure(
+        after == before,
+        format!("1001h = {before:02X}h when heartbeats come again, as before the error"),
+        format!("{after:02X}h was read"),
+    )
 }
 
 /// Heartbeats of another node do not replace those of the monitored one.

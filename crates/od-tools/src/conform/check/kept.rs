@@ -441,12 +441,7 @@ pub(super) fn saves_over_power(dut: &mut Dut<'_>) -> Checked {
     let test = |dut: &mut Dut<'_>, changes: &Changes| {
         command(dut, 0x1010, 1, b"save")?;
         changes.undo(dut)?;
-        dut.power(false)?;
-        dut.wait(500_000)?;
-        dut.drain()?;
-        let from = dut.now();
-        dut.power(true)?;
-        dut.booted(from)?;
+        dut.power_cycle()?;
         let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
         changes.compare(dut, other, "after the power was off, as saved")
     };
@@ -582,38 +577,54 @@ fn saves_itself(dut: &mut Dut<'_>) -> Checked<bool> {
 }
 
 /// Every value that was not saved is lost after the reset.
-fn forgets_each(dut: &mut Dut<'_>, command: Command, groups: &[Group]) -> Checked {
+fn forgets_each(
+    dut: &mut Dut<'_>,
+    groups: &[Group],
+    when: &str,
+    restart: impl FnOnce(&mut Dut<'_>) -> Checked,
+) -> Checked {
     if saves_itself(dut)? {
         return lacks("the node saves values itself");
     }
     let which = |entry: &Entry| groups.contains(&entry.group);
     let test = |dut: &mut Dut<'_>, changes: &Changes| {
-        dut.reset(command)?;
+        restart(dut)?;
         let before = |_: &Dut<'_>, change: &Change| change.earlier();
-        changes.compare(dut, before, "after the reset, as before the change")
+        changes.compare(dut, before, &format!("after {when}, as before the change"))
     };
     changed(dut, which, test, false)
 }
 
 pub(super) fn reset_communication(dut: &mut Dut<'_>) -> Checked {
-    forgets_each(dut, Command::ResetCommunication, &[Group::Communication])
+    forgets_each(dut, &[Group::Communication], "the reset", |dut| {
+        dut.reset(Command::ResetCommunication)
+    })
 }
 
-/// Reset communication keeps every parameter of the application.
+/// Reset communication keeps every parameter of the application, in each NMT state.
 pub(super) fn keeps_application(dut: &mut Dut<'_>) -> Checked {
     let is_encoder = dut.eds.meets("cia406") == Some(true);
     let which = |entry: &Entry| entry.group == Group::Application && is_of_part(entry, is_encoder);
     let test = |dut: &mut Dut<'_>, changes: &Changes| {
-        dut.reset(Command::ResetCommunication)?;
-        let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
-        changes.compare(dut, other, "after reset communication, as written")
+        for state in [Command::EnterPreOperational, Command::Start, Command::Stop] {
+            dut.nmt(state)?;
+            dut.reset(Command::ResetCommunication)?;
+            let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
+            changes.compare(dut, other, "after reset communication, as written")?;
+        }
+        Ok(())
     };
     changed(dut, which, test, false)
 }
 
+const BOTH: [Group; 2] = [Group::Communication, Group::Application];
+
 pub(super) fn reset_node(dut: &mut Dut<'_>) -> Checked {
-    let groups = [Group::Communication, Group::Application];
-    forgets_each(dut, Command::ResetNode, &groups)
+    forgets_each(dut, &BOTH, "the reset", |dut| dut.reset(Command::ResetNode))
+}
+
+pub(super) fn power_off(dut: &mut Dut<'_>) -> Checked {
+    forgets_each(dut, &BOTH, "the power was off", |dut| dut.power_cycle())
 }
 
 /// A write of a sub-object changes no other sub-object of its object, and not the same one of the next objects.

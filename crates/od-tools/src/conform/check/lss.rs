@@ -235,6 +235,17 @@ pub(super) fn node_id(dut: &mut Dut<'_>) -> Checked {
         let other = if node_id == 100 { 101 } else { 100 };
         answers(dut, Request::ConfigureNodeId { node_id: other }, &[0x11, 0])?;
         let mut done = if sees_state { dut.is_in(4) } else { Ok(()) };
+        // Some slaves respond with the node ID that is active, others with the one that a reset makes active.
+        if let Some(answer) = ask(dut, Request::InquireNodeId)? {
+            let pending = ensure(
+                answer[0] == 0x5E && [node_id, other].contains(&answer[1]),
+                format!(
+                    "node ID {node_id}, or {other} that was configured, in the LSS response 5E"
+                ),
+                format!("{} came", values::hex(&answer)),
+            );
+            done = done.and(pending);
+        }
         for other in (1..=127).filter(|other| *other != node_id) {
             if done.is_ok() {
                 let request = Request::ConfigureNodeId { node_id: other };

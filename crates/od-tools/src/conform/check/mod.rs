@@ -16,6 +16,7 @@ mod homing;
 mod identify;
 mod kept;
 mod lss;
+mod lss_states;
 mod maker;
 mod mapping;
 mod module;
@@ -277,6 +278,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.2.8.3.1: A command that does not exist changes nothing."),
         check("nmt-short-command", nmt::short_command,
             "CiA 301 7.2.8.3.1: A command without a node ID, or a remote frame, changes nothing."),
+        check("nmt-long-command", nmt::long_command,
+            "CiA 301 7.2.8.3.1: A command with more than two bytes is followed or ignored, and one to another node changes nothing."),
         check("nmt-sdo-in-operational", nmt::sdo_in_operational,
             "CiA 301 7.3.2.2.3: SDO works in Operational, also downloads and segments."),
         check("nmt-no-sdo-in-stopped", nmt::no_sdo_in_stopped,
@@ -288,11 +291,13 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("nmt-reset-application", nmt::reset_application,
             "CiA 301 7.3.2.2.1: Reset node, also to all nodes, restores the parameters of the application.").needs("reset"),
         check("nmt-reset-communication-application", kept::keeps_application,
-            "CiA 301 7.3.2.2.1: Reset communication keeps every parameter of the application.").needs("reset"),
+            "CiA 301 7.3.2.2.1: Reset communication keeps every parameter of the application, in each NMT state.").needs("reset"),
         check("nmt-reset-communication-each", kept::reset_communication,
             "CiA 301 7.3.2.2.1: Reset communication restores every parameter of communication, also those of each PDO.").needs("reset"),
         check("nmt-reset-node-each", kept::reset_node,
             "CiA 301 7.3.2.2.1: Reset node restores every parameter of communication and of the application.").needs("reset"),
+        check("nmt-power-values", kept::power_off,
+            "CiA 301 7.5.2.13: Every value that was not saved is lost after the power was off.").needs("power"),
         check("nmt-self-start", kept::self_start,
             "CiA 302-2 1F80h: With 8 in 1F80h a node enters Operational after a reset, without a command.").applies("1F80h rw, 1010h:01").needs("reset, store"),
     ]),
@@ -321,10 +326,12 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.19: The same node in two entries of 1016h is refused with 06040043h.").applies("1016h"),
         check("heartbeat-consumer-each", heartbeat::consumer_each,
             "CiA 301 7.5.2.19: Each entry of 1016h monitors its node.").applies("1016h, 1014h"),
-        check("heartbeat-consumer-two", heartbeat::consumer_two,
-            "CiA 301 7.5.2.19: Two entries of 1016h monitor their nodes at once.").applies("1016h, 1014h"),
+        check("heartbeat-consumer-together", heartbeat::consumer_together,
+            "CiA 301 7.5.2.19: All entries of 1016h monitor their nodes at once.").applies("1016h, 1014h"),
         check("heartbeat-consumer-off", heartbeat::consumer_off,
             "CiA 301 7.5.2.19: An entry with the time 0 monitors no node.").applies("1016h, 1014h"),
+        check("heartbeat-consumer-ends", heartbeat::consumer_ends,
+            "CiA 301 7.5.2.2: When heartbeats come again, 1001h has no bit of the heartbeat error.").applies("1016h, 1014h"),
         check("heartbeat-consumer-reset", heartbeat::consumer_reset,
             "CiA 301 7.5.2.19: After reset communication monitoring begins with the first heartbeat.").applies("1016h, 1014h").needs("reset"),
         check("heartbeat-consumer-pre-operational", heartbeat::consumer_pre_operational,
@@ -613,6 +620,14 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 305 6: Reserved bytes of responses are 0.").applies("lss"),
         check("lss-fastscan-configured", identify::fastscan_configured,
             "CiA 305 6.7: A node with a node ID does not answer fastscan.").applies("lss"),
+        check("lss-states", lss_states::other_states,
+            "CiA 305 6.3: A node that can be selected in Pre-operational or in Operational has the same responses there as in Stopped.").applies("lss"),
+        check("lss-in-a-row", lss_states::each_after_each,
+            "CiA 305 6.3: In the configuration state each command has the same response after every other one.").applies("lss"),
+        check("lss-beside-others", lss_states::beside_others,
+            "CiA 305 6.3: In the configuration state the node follows NMT commands, sends heartbeats and serves SDO requests.").applies("lss"),
+        check("lss-other-frames", lss_states::other_frames,
+            "CiA 305 6.3: A frame with a CAN-ID of 29 bits and a remote frame are not LSS requests.").applies("lss"),
         check("lss-store", lss::store,
             "CiA 305 6.4.5: The node stores its configuration.").applies("lss").needs("store"),
     ]),

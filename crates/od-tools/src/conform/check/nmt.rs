@@ -7,7 +7,7 @@ use od_wire::{CanId, CobId, Frame};
 use super::segments;
 use super::transfer::{Channel, another_value};
 use super::transmit;
-use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::request;
 
@@ -388,6 +388,7 @@ pub(super) fn short_command(dut: &mut Dut<'_>) -> Checked {
     for (state, code) in [
         (Command::EnterPreOperational, PRE_OPERATIONAL),
         (Command::Start, OPERATIONAL),
+        (Command::Stop, STOPPED),
     ] {
         dut.nmt(state)?;
         for command in [None, Some(1), Some(2), Some(0x80), Some(0x81), Some(0x82)] {
@@ -407,6 +408,56 @@ pub(super) fn short_command(dut: &mut Dut<'_>) -> Checked {
         dut.ask_for(CanId::standard(0), 2)?;
         dut.wait(20_000)?;
         dut.is_in(code)?;
+    }
+    Ok(())
+}
+
+/// A node may follow a command with more than two bytes or ignore it, and must not take it for another one.
+pub(super) fn long_command(dut: &mut Dut<'_>) -> Checked {
+    dut.follow_state()?;
+    let node = dut.node.raw();
+    let other = if node == 127 { 126 } else { node + 1 };
+    for len in [3, 4, 8] {
+        for (command, state) in [(1, OPERATIONAL), (2, STOPPED), (0x80, PRE_OPERATIONAL)] {
+            dut.drain()?;
+            let before = dut.state()?;
+            let bytes = [command, node, other, 0x81, 1, 0x82, node, 2];
+            dut.send_to(0, &bytes[..len])?;
+            if let Some(heard) = boot_up_in(dut, 30_000)? {
+                return fail(
+                    format!("no reset by the bytes {}", values::hex(&bytes[..len])),
+                    format!("{heard} came"),
+                );
+            }
+            dut.drain()?;
+            let is = dut.state()?;
+            ensure(
+                is == state || is == before,
+                format!(
+                    "NMT state {} or still {} after the bytes {}",
+                    state_name(state),
+                    state_name(before),
+                    values::hex(&bytes[..len])
+                ),
+                format!("the node is in {}", state_name(is)),
+            )?;
+        }
+        dut.nmt(Command::EnterPreOperational)?;
+        for command in [1, 2, 0x81, 0x82] {
+            let mut bytes = [node; 8];
+            bytes[..2].copy_from_slice(&[command, other]);
+            dut.send_to(0, &bytes[..len])?;
+            if let Some(heard) = boot_up_in(dut, 50_000)? {
+                return fail(
+                    format!(
+                        "no reset by the bytes {}, a command to node {other}",
+                        values::hex(&bytes[..len])
+                    ),
+                    format!("{heard} came"),
+                );
+            }
+            dut.is_in(PRE_OPERATIONAL)?;
+        }
     }
     Ok(())
 }
