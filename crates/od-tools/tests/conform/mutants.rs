@@ -34,6 +34,17 @@ fn kind(name: &str) -> &str {
     name.split(' ').next().unwrap_or(name)
 }
 
+/// 1021h with an EDS of the identity that `ds301` has.
+fn stored_eds() -> String {
+    let text = "[DeviceInfo]\nVendorNumber=1\nProductNumber=2\nRevisionNumber=3\n\
+        [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n\
+        [1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n";
+    let hex: String = text.bytes().map(|byte| format!("{byte:02X}")).collect();
+    format!(
+        "\n[1021]\nParameterName=Store EDS\nObjectType=2\nDataType=15\nAccessType=ro\nDefaultValue={hex}\n"
+    )
+}
+
 /// The EDS of a device of the table.
 fn text(name: &str) -> String {
     match kind(name) {
@@ -43,6 +54,7 @@ fn text(name: &str) -> String {
         "dummies" => text("ds301").replace("Dummy0005=0", "Dummy0005=1"),
         "limited" => changed(&text("ds301"), "1017 DataType=0x0006\nHighLimit=5000"),
         "extended" => text("ds301") + EXTENSION,
+        "stores-eds" => text("ds301") + &stored_eds(),
         "services" => include_str!("../../../../tests/eds/services.eds").into(),
         built_in => od_devices::text::eds(od_devices::find(built_in).expect("a device")),
     }

@@ -9,7 +9,7 @@ use od_wire::Frame;
 
 use super::segments::{ended_by_abort, long_value, short_value};
 use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::record::Traced;
 use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request, reserved_are_0};
 
@@ -132,6 +132,14 @@ fn read(dut: &mut Dut<'_>, address: Address, mut how: How) -> Checked<Vec<u8>> {
             format!("{} bytes came", bytes.len()),
         ),
         _ => Ok(bytes),
+    }
+}
+
+/// Reads a long value by block transfer. Returns whether the node has block transfers, and a value for one.
+pub(super) fn serves(dut: &mut Dut<'_>) -> Checked<bool> {
+    match same(dut, PLAIN) {
+        Err(End::NotApplicable(_)) => Ok(false),
+        done => done.map(|()| true),
     }
 }
 
@@ -335,6 +343,8 @@ fn write(
     }
     let got = format!("{} came", values::hex(&answer));
     ensure(answer[0] == 0xA1, "the end of the block download, A1h", got)?;
+    let id = dut.id(0x580);
+    dut.silent(id, 10_000, "one response to the end of the block download")?;
     Ok(Ok(()))
 }
 

@@ -232,7 +232,11 @@ pub(super) fn fixed(dut: &mut Dut<'_>) -> Checked {
     /// A CAN-ID that no service has.
     const OTHER: u32 = 0x4F5;
     let mut any = false;
-    for address in with_bit_31(dut) {
+    // The transfers of this case use the default server.
+    let servers = (0x1201..=0x127F).flat_map(|index| [1, 2].map(|sub| Address::new(index, sub)));
+    let servers = servers.filter(|address| dut.eds.writes(address.index, address.sub));
+    let all: Vec<Address> = with_bit_31(dut).into_iter().chain(servers).collect();
+    for address in all {
         let before = number(&dut.read(address)?) as u32;
         let cob_id = CobId::new(before);
         let other = (before & !0x3FFF_FFFF) | OTHER;

@@ -1,8 +1,10 @@
 //! Checks the EDS itself, and whether it describes the node.
 
+use od_eds::Document;
 use od_model::{Address, values};
 
 use crate::conform::dut::Dut;
+use crate::conform::eds::Eds;
 use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::number;
 
@@ -88,6 +90,50 @@ pub(super) fn device_info(dut: &mut Dut<'_>) -> Checked {
         )?;
     }
     at_least_one(any, "[DeviceInfo] has no VendorNumber and ProductNumber")
+}
+
+/// The file in 1021h is an EDS with the identity of the node, if 1022h says that it is a plain text.
+pub(super) fn stored(dut: &mut Dut<'_>) -> Checked {
+    let format = match dut.upload(Address::new(0x1022, 0))? {
+        Ok(format) => number(&format),
+        // Without 1022h the format is 0.
+        Err(_) => 0,
+    };
+    if format != 0 {
+        return lacks(format!(
+            "the format of the stored file is {format:X}h (1022h)"
+        ));
+    }
+    let text = match dut.upload(Address::new(0x1021, 0))? {
+        Ok(bytes) if !bytes.is_empty() => Document::new(bytes).text().to_owned(),
+        _ => return lacks("the node stores no file in 1021h"),
+    };
+    let stored = Eds::read(&text);
+    ensure(
+        !stored.description.objects.is_empty(),
+        "an EDS in 1021h, as 1022h is 0",
+        format!("a text of {} bytes that defines no object came", text.len()),
+    )?;
+    for (key, sub) in [
+        ("VendorNumber", 1),
+        ("ProductNumber", 2),
+        ("RevisionNumber", 3),
+    ] {
+        let address = Address::new(0x1018, sub);
+        let Some(wanted) = stored.info(key).filter(|wanted| *wanted != 0) else {
+            continue;
+        };
+        if let Ok(bytes) = dut.upload(address)? {
+            let is = number(&bytes);
+            let done = ensure(
+                i128::from(is) == wanted,
+                format!("{key}={is} in the EDS in 1021h, as in {address}"),
+                format!("it is {wanted}"),
+            );
+            dut.fault(done)?;
+        }
+    }
+    Ok(())
 }
 
 /// The numbers of PDOs in `[DeviceInfo]` are those of the EDS.

@@ -487,6 +487,11 @@ pub(super) fn guarding_after_reset(dut: &mut Dut<'_>) -> Checked {
     for wanted in [0, 0x80] {
         let state = guarded(dut)?;
         ensure(
+            matches!(state & 0x7F, 4 | 5 | 0x7F),
+            "state 04h, 05h or 7Fh in the response after the boot-up message",
+            format!("{state:02X}h came"),
+        )?;
+        ensure(
             state & 0x80 == wanted,
             format!("toggle bit {}", wanted >> 7),
             format!("{state:02X}h came"),

@@ -469,6 +469,17 @@ fn is_part(dut: &Dut<'_>, change: &Change, sub: u8) -> bool {
     entry.is_some_and(|entry| entry.group.covered_by(sub))
 }
 
+/// Returns whether this sub-index of 1010h or 1011h acts on command. One that has 0 refuses its signature.
+fn acts(dut: &mut Dut<'_>, index: u16, sub: u8, signature: &[u8]) -> Checked<bool> {
+    let address = Address::new(index, sub);
+    let can = dut.number(index, sub)?;
+    if can == 0 {
+        let done = dut.cannot_change(address, signature, &format!("as {address} is 0"));
+        dut.fault(done)?;
+    }
+    Ok(can & 1 == 1)
+}
+
 /// 1010h:02 to 1010h:04 save each value of their own, and no other.
 pub(super) fn saves_parts(dut: &mut Dut<'_>) -> Checked {
     parts(dut, |dut, changes, sub, _| {
@@ -489,7 +500,7 @@ pub(super) fn saves_parts(dut: &mut Dut<'_>) -> Checked {
 /// 1011h:02 to 1011h:04 restore each value of their own, and no other.
 pub(super) fn restores_parts(dut: &mut Dut<'_>) -> Checked {
     parts(dut, |dut, changes, sub, reset| {
-        if dut.eds.entry(0x1011, sub).is_none() || dut.number(0x1011, sub)? & 1 == 0 {
+        if dut.eds.entry(0x1011, sub).is_none() || !acts(dut, 0x1011, sub, b"load")? {
             return Ok(());
         }
         command(dut, 0x1010, 1, b"save")?;
@@ -521,7 +532,7 @@ fn parts(
     let is_encoder = dut.eds.meets("cia406") == Some(true);
     let mut any = false;
     for (sub, reset) in PARTS {
-        if dut.eds.entry(0x1010, sub).is_none() || dut.number(0x1010, sub)? & 1 == 0 {
+        if dut.eds.entry(0x1010, sub).is_none() || !acts(dut, 0x1010, sub, b"save")? {
             continue;
         }
         any = true;

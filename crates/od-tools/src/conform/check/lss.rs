@@ -26,7 +26,7 @@ pub(super) fn ask(dut: &mut Dut<'_>, request: Request) -> Checked<Option<[u8; 8]
     raw(dut, request.emit())
 }
 
-fn raw(dut: &mut Dut<'_>, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
+pub(super) fn raw(dut: &mut Dut<'_>, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
     dut.drain()?;
     dut.send(Frame::standard(MASTER, &data))?;
     let heard = dut.next(QUIET, |frame| is_data(frame, SLAVE))?;

@@ -5,7 +5,7 @@ use od_wire::lss::{MASTER, Part, Request, SLAVE};
 use od_wire::nmt::Command;
 use od_wire::{CanId, Frame};
 
-use super::lss::{answers, ask, begin, configured, select, stays_silent, waiting};
+use super::lss::{answers, ask, begin, configured, raw, select, stays_silent, waiting};
 use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, at_least_one, ensure, fail};
 
@@ -82,25 +82,25 @@ pub(super) fn other_states(dut: &mut Dut<'_>) -> Checked {
     at_least_one(any, "the node can be selected in Stopped only")
 }
 
-/// Sends a command whose response does not matter.
-fn passes(dut: &mut Dut<'_>, data: [u8; 8]) -> Checked {
-    dut.send(Frame::standard(MASTER, &data))?;
-    dut.settle(5_000)
-}
-
 /// In the configuration state each command has the same response after every other one, also after one that is
 /// refused, one that does not exist, and a second switch to the configuration state.
 pub(super) fn each_after_each(dut: &mut Dut<'_>) -> Checked {
     configured(dut)?;
     let mut all = responses(dut)?;
     all.retain(|(_, answer)| answer.is_some());
-    let mut first: Vec<[u8; 8]> = all.iter().map(|(request, _)| request.emit()).collect();
-    first.push(SELECT_ALL.emit());
-    first.push([0x70, 0, 0, 0, 0, 0, 0, 0]);
+    let known = all.iter().map(|(request, _)| request.emit());
+    let others = [SELECT_ALL.emit(), [0x70, 0, 0, 0, 0, 0, 0, 0]];
+    let first: Vec<[u8; 8]> = known.chain(others).collect();
     let done = (|| {
         for before in &first {
             for (request, wanted) in &all {
-                passes(dut, *before)?;
+                if others.contains(before) {
+                    // These have no response.
+                    dut.send(Frame::standard(MASTER, before))?;
+                    dut.settle(20_000)?;
+                } else {
+                    raw(dut, *before)?;
+                }
                 let is = ask(dut, *request)?;
                 ensure(
                     is == *wanted,
@@ -156,22 +156,15 @@ pub(super) fn other_frames(dut: &mut Dut<'_>) -> Checked {
     if select(dut, all)?.is_none() {
         return fail("LSS response 44 to switch state selective", "none came");
     }
-    let remote = Frame::remote(CanId::standard(MASTER), 8);
-    for (frame, name) in [
-        (
-            Some(Frame::full(wide, VENDOR.emit())),
-            "a frame with a CAN-ID of 29 bits",
-        ),
-        (remote, "a remote frame"),
-    ] {
-        let Some(frame) = frame else {
-            continue;
-        };
+    let wides = commands(dut).into_iter();
+    let mut frames: Vec<Frame> = wides.map(|one| Frame::full(wide, one.emit())).collect();
+    frames.extend(Frame::remote(CanId::standard(MASTER), 8));
+    for frame in frames {
         dut.drain()?;
         dut.send(frame)?;
-        if let Some(heard) = dut.next(QUIET, |frame| is_data(frame, SLAVE))? {
+        if let Some(heard) = dut.next(QUIET / 5, |frame| is_data(frame, SLAVE))? {
             let done = fail(
-                format!("no LSS response to {name}"),
+                format!("no LSS response to {frame}"),
                 format!("{} came", heard.frame),
             );
             dut.fault(done)?;

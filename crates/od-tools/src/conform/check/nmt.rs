@@ -4,11 +4,13 @@ use od_model::{Address, values};
 use od_wire::nmt::{Command, Repr};
 use od_wire::{CanId, CobId, Frame};
 
+use super::block;
 use super::segments;
 use super::transfer::{Channel, another_value};
 use super::transmit;
 use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::record::Traced;
 use crate::conform::sdo::request;
 
 const OPERATIONAL: u8 = 5;
@@ -180,9 +182,14 @@ fn boot_up_in(dut: &mut Dut<'_>, micros: u64) -> Checked<Option<Frame>> {
 
 pub(super) fn pre_operational_after_reset(dut: &mut Dut<'_>) -> Checked {
     for reset in [Command::ResetNode, Command::ResetCommunication] {
-        dut.reset(reset)?;
-        dut.follow_state()?;
-        dut.is_in(PRE_OPERATIONAL)?;
+        // The first command after the reset has its effect, too.
+        for (command, state) in [(Command::Stop, STOPPED), (Command::Start, OPERATIONAL)] {
+            dut.reset(reset)?;
+            dut.follow_state()?;
+            dut.is_in(PRE_OPERATIONAL)?;
+            dut.nmt(command)?;
+            dut.is_in(state)?;
+        }
     }
     Ok(())
 }
@@ -463,8 +470,15 @@ pub(super) fn long_command(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {
+    let by_block = block::serves(dut)?;
     dut.nmt(Command::Start)?;
     dut.still_serves()?;
+    if by_block && !block::serves(dut)? {
+        return fail(
+            "a block upload in Operational, as in Pre-operational",
+            "the node refuses block transfers",
+        );
+    }
     // A device may refuse to change the parameters of a PDO in this state.
     if let Some((address, _)) = another_value(dut)?
         && address.index < 0x1400
@@ -479,10 +493,17 @@ pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
-    let mut requests = vec![
-        request(0x40, TYPE, [0; 4]),
-        request(0xA0, TYPE, [127, 0, 0, 0]),
-    ];
+    let mut requests = vec![request(0xA0, TYPE, [127, 0, 0, 0])];
+    // Segments, blocks and ends of transfers that do not exist, and a command that does not exist.
+    for command in [0x00, 0x60, 0x70, 0x81, 0xA1, 0xA2, 0xA3, 0xC1, 0xE0] {
+        requests.push(request(command, TYPE, [0; 4]));
+    }
+    let entries = dut.eds.dictionary().entries();
+    let read = entries.filter(|entry| entry.address.index < 0x2000 && entry.access.readable());
+    requests.extend(
+        read.take(64)
+            .map(|entry| request(0x40, entry.address, [0; 4])),
+    );
     let before = match another_value(dut)? {
         Some((address, bytes)) => {
             requests.push(request(0x2B, address, [bytes[0], bytes[1], 0, 0]));
@@ -504,13 +525,22 @@ pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
             );
         }
     }
+    let from = dut.frames.len();
     for request in requests {
-        if let Some(answer) = dut.ask_within(request, QUIET)? {
-            return fail(
-                format!("no SDO response to {} in Stopped", values::hex(&request)),
-                format!("{} came", values::hex(&answer)),
-            );
-        }
+        dut.send_to(dut.id(0x600), &request)?;
+        dut.settle(3_000)?;
+    }
+    dut.wait(QUIET)?;
+    let id = dut.id(0x580);
+    let frames = dut.frames.get(from..).unwrap_or_default();
+    let response = |traced: &Traced| !traced.ours && is_data(&traced.frame, id);
+    if let Some(at) = frames.iter().position(response) {
+        let asked = frames[..at].iter().rev().find(|traced| traced.ours);
+        let asked = asked.map_or(String::new(), |traced| format!(" to {}", traced.frame));
+        return fail(
+            format!("no SDO response in Stopped{asked}"),
+            format!("{} came", frames[at].frame),
+        );
     }
     dut.nmt(Command::EnterPreOperational)?;
     dut.still_serves()?;

@@ -1,6 +1,6 @@
 //! Segmented transfers.
 
-use od_model::{Address, Entry, values};
+use od_model::{Access, Address, Entry, values};
 use od_wire::AbortCode::{
     self, InvalidCommand, Length, NoObject, OutOfMemory, ReadOnly, ToggleBit, TooLong, TooShort,
     UnsupportedAccess,
@@ -322,8 +322,16 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     let segments = if segmented.is_ok() { segments } else { &[] };
     let first = [&[(0x60, 4)], segments].concat();
     reserved_are_0(dut, from, &first)?;
-    // Of every number: its own value.
+    // Of every number: its own value, which a node may refuse for a PDO or a service that is valid.
     let mut all = dut.eds.writable();
+    let has_bit_31 = |entry: &Entry| {
+        entry.access.writable()
+            && matches!(
+                entry.address.index,
+                0x1005 | 0x1012 | 0x1014 | 0x1015 | 0x1400..=0x1BFF
+            )
+    };
+    all.extend(dut.eds.dictionary().entries().filter(has_bit_31));
     // 1019h can be written only while 1006h is 0.
     all.retain(|entry| is_number(entry) && entry.address.index != 0x1019);
     let from = dut.frames.len();
@@ -358,9 +366,21 @@ pub(super) fn download_left_open(dut: &mut Dut<'_>) -> Checked {
 
 /// A download by segments is refused as an expedited one: of an object that is read only, and of one that is missing.
 pub(super) fn download_refused(dut: &mut Dut<'_>) -> Checked {
-    let device_type = Address::new(0x1000, 0);
-    let before = dut.read(device_type)?;
-    refuses(dut, device_type, &before, &[UnsupportedAccess, ReadOnly])?;
+    let entries = dut.eds.dictionary().entries();
+    let is_fixed = |entry: &Entry| {
+        (0x1000..0x2000).contains(&entry.address.index)
+            && matches!(entry.access, Access::Ro | Access::Const)
+    };
+    // Each object once: its first sub-object.
+    let mut fixed: Vec<Address> = entries.filter(is_fixed).map(|one| one.address).collect();
+    fixed.dedup_by_key(|address| address.index);
+    for address in fixed {
+        if let Ok(before) = dut.upload(address)?
+            && (1..=64).contains(&before.len())
+        {
+            refuses(dut, address, &before, &[UnsupportedAccess, ReadOnly])?;
+        }
+    }
     match dut.eds.missing() {
         Some(index) => refuses(dut, Address::new(index, 0), &[0; 4], &[NoObject]),
         None => Ok(()),

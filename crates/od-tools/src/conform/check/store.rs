@@ -1,13 +1,14 @@
 //! Store and restore: 1010h and 1011h.
 
 use od_model::{Address, Entry, Group, Literal, values};
-use od_wire::AbortCode::{LocalControl, NotStored};
+use od_wire::AbortCode::{Length, LocalControl, NotStored, TooShort};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
 use crate::conform::dut::{Dut, is_data};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::sdo::number;
 
 /// Time after the response to a save, since a node may still be writing, in microseconds.
 const MEMORY: u64 = 600_000;
@@ -54,8 +55,8 @@ pub(super) fn command(dut: &mut Dut<'_>, index: u16, sub: u8, signature: &[u8]) 
 pub(super) fn wrong_signature(dut: &mut Dut<'_>, index: u16) -> Checked {
     // A node that takes one of the others for a restore would lose its values.
     let wrong: &[&[u8]] = match index {
-        0x1010 => &[b"evas", b"SAVE", b"load"],
-        _ => &[b"evas"],
+        0x1010 => &[b"evas", b"SAVE", b"load", b"sav", b"sa"],
+        _ => &[b"evas", b"loa", b"lo"],
     };
     refuses_signatures(dut, index, wrong)
 }
@@ -68,7 +69,13 @@ fn refuses_signatures(dut: &mut Dut<'_>, index: u16, wrong: &[&[u8]]) -> Checked
         }
         for signature in wrong {
             let address = Address::new(index, sub);
-            let done = dut.refuses_value(address, signature, &[NotStored, LocalControl]);
+            let codes = [NotStored, LocalControl, Length, TooShort];
+            let codes = if signature.len() < 4 {
+                &codes[..]
+            } else {
+                &codes[..2]
+            };
+            let done = dut.refuses_value(address, signature, codes);
             dut.fault(done)?;
         }
     }
@@ -92,11 +99,7 @@ pub(super) fn save_can(dut: &mut Dut<'_>) -> Checked {
     if can == 0 {
         return lacks("1010h:01 is 0: the node saves neither on command nor automatically");
     }
-    ensure(
-        can & !3 == 0,
-        "0, 1, 2 or 3 in 1010h:01: bits 2 to 31 are reserved",
-        format!("{can:X}h was read"),
-    )
+    says(dut, 0x1010, 3, "0, 1, 2 or 3", "bits 2 to 31 are reserved")
 }
 
 pub(super) fn load_can(dut: &mut Dut<'_>) -> Checked {
@@ -104,11 +107,26 @@ pub(super) fn load_can(dut: &mut Dut<'_>) -> Checked {
     if can == 0 {
         return lacks("1011h:01 is 0: the node does not restore");
     }
-    ensure(
-        can == 1,
-        "0 or 1 in 1011h:01: bits 1 to 31 are reserved",
-        format!("{can:X}h was read"),
-    )
+    says(dut, 0x1011, 1, "0 or 1", "bits 1 to 31 are reserved")
+}
+
+/// Each sub-index has only these bits.
+fn says(dut: &mut Dut<'_>, index: u16, bits: u64, expected: &str, why: &str) -> Checked {
+    let count = dut.number(index, 0)?.min(127) as u8;
+    for sub in 1..=count {
+        let address = Address::new(index, sub);
+        let Ok(bytes) = dut.upload(address)? else {
+            continue;
+        };
+        let can = number(&bytes);
+        let done = ensure(
+            can & !bits == 0,
+            format!("{expected} in {address}: {why}"),
+            format!("{can:X}h was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 pub(super) fn save(dut: &mut Dut<'_>) -> Checked {

@@ -9,8 +9,8 @@ use od_wire::AbortCode::{
 };
 use od_wire::{AbortCode, CanId, CobId, Frame};
 
-use super::segments;
-use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
+use super::{block, segments};
+use crate::conform::dut::{ANSWER, Dut, FREE, QUIET, is_data};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
@@ -63,7 +63,38 @@ pub(super) fn one_answer(dut: &mut Dut<'_>) -> Checked {
         let expected = format!("one response to {}", values::hex(&request));
         dut.silent(id, QUIET, &expected)?;
     }
+    // By segments each request has one response, and nothing follows the end of a transfer.
+    let from = dut.frames.len();
+    if let Some((address, before)) = optional(segments::short_value(dut))? {
+        let _ = dut.download_segments(address, &before, true, before.len() / 2)?;
+    }
+    if let Some((address, _)) = optional(segments::long_value(dut))? {
+        dut.read(address)?;
+    }
+    dut.silent(
+        id,
+        QUIET,
+        "no SDO response after the end of a transfer by segments",
+    )?;
+    let frames = dut.frames.get(from..).unwrap_or_default().iter();
+    let asked = frames.clone().filter(|traced| traced.ours).count();
+    let answered = frames.filter(|traced| is_data(&traced.frame, id)).count();
+    ensure(
+        answered == asked,
+        format!("one response to each of {asked} requests of transfers by segments"),
+        format!("{answered} came"),
+    )?;
+    block::serves(dut)?;
+    dut.silent(id, QUIET, "no SDO response after the end of a block upload")?;
     Ok(())
+}
+
+/// The object, if the node has one for this test.
+fn optional<T>(found: Checked<T>) -> Checked<Option<T>> {
+    match found {
+        Err(End::NotApplicable(_)) => Ok(None),
+        found => found.map(Some),
+    }
 }
 
 pub(super) fn read_write_back(dut: &mut Dut<'_>) -> Checked {
@@ -575,6 +606,52 @@ pub(super) fn servers_parallel(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
     listed(dut, 0x1280..=0x1288)
+}
+
+/// While an SDO client is not valid its COB-IDs can have other CAN-IDs; then it can be made valid, and not valid again.
+pub(super) fn clients_valid(dut: &mut Dut<'_>) -> Checked {
+    const NOT_VALID: u32 = 1 << 31;
+    let mut any = false;
+    for index in 0x1280..=0x1288 {
+        let both = [1, 2].map(|sub| Address::new(index, sub));
+        if !both.iter().all(|one| dut.eds.writes(one.index, one.sub)) {
+            continue;
+        }
+        any = true;
+        for address in both {
+            dut.keep(address)?;
+            let off = dut.number(index, address.sub)? as u32 | NOT_VALID;
+            dut.write(address, &off.to_le_bytes())?;
+        }
+        let ids = both.map(|one| (one, u32::from(FREE + 0x18) + u32::from(one.sub)));
+        for flag in [NOT_VALID, 0, NOT_VALID] {
+            for (address, id) in ids {
+                let value = (id | flag).to_le_bytes();
+                dut.write(address, &value)?;
+                let is = dut.read(address)?;
+                let done = ensure(
+                    is == value,
+                    format!("{} in {address}, as written", values::hex(&value)),
+                    format!("{} was read", values::hex(&is)),
+                );
+                dut.fault(done)?;
+            }
+        }
+        let server = Address::new(index, 3);
+        if dut.eds.writes(index, 3) {
+            let before = dut.keep(server)?;
+            let other = [if before == [2] { 3 } else { 2 }];
+            dut.write(server, &other)?;
+            let is = dut.read(server)?;
+            let done = ensure(
+                is == other,
+                format!("{} in {server}, as written", values::hex(&other)),
+                format!("{} was read", values::hex(&is)),
+            );
+            dut.fault(done)?;
+        }
+    }
+    at_least_one(any, "no COB-ID of an SDO client can be written")
 }
 
 /// The node has the objects of this range in the EDS, and no others.
