@@ -22,7 +22,23 @@ pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     every(dut, 100, 2, state)?;
     every(dut, 250, 4, state)?;
     // A time that needs both bytes.
-    every(dut, 1000, 2, state)
+    every(dut, 1000, 2, state)?;
+    if dut
+        .eds
+        .excludes(PRODUCER, &[0x88, 0x13], dut.node)
+        .is_some()
+    {
+        return Ok(());
+    }
+    // The longer time takes effect at once, or after the heartbeat that was due.
+    every(dut, 100, 1, state)?;
+    dut.write(PRODUCER, &[0x88, 0x13])?;
+    let heard = dut.all_of(dut.id(0x700), 1_000_000)?;
+    ensure(
+        heard.len() < 3,
+        "at most two heartbeats in the first second with 5000 in 1017h",
+        format!("{} came", heard.len()),
+    )
 }
 
 /// Checks that heartbeats arrive at this period, within 10 %, in the state after this command.
@@ -73,10 +89,17 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     dut.drain()?;
     dut.silent(id, 300_000, "no heartbeat with 1017h = 0")?;
     dut.write(PRODUCER, &[50, 0])?;
-    match dut.next_of(id, 200_000)? {
-        Some(_) => Ok(()),
-        None => fail("a heartbeat every 50 ms again after 1017h = 0", "none came"),
+    if dut.next_of(id, 200_000)?.is_none() {
+        return fail("a heartbeat every 50 ms again after 1017h = 0", "none came");
     }
+    dut.write(PRODUCER, &[0, 0])?;
+    for (command, state, micros) in [(Command::Start, 5, 1_100_000), (Command::Stop, 4, 300_000)] {
+        dut.nmt(command)?;
+        dut.drain()?;
+        let expected = format!("no heartbeat in {} with 1017h = 0", state_name(state));
+        dut.silent(id, micros, &expected)?;
+    }
+    Ok(())
 }
 
 /// Heartbeats come while the node serves SDO requests, refuses them and is told of an abort, and after it.

@@ -29,7 +29,14 @@ pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
     let [vendor, product, revision, serial] = begin(dut)?;
     let right = [vendor, product, revision, revision, serial, serial];
     match identified(dut, right)? {
-        Some([0x4F, 0, 0, 0, 0, 0, 0, 0]) => {}
+        Some([0x4F, 0, 0, 0, 0, 0, 0, 0]) => {
+            let vendor = Request::Inquire { part: Part::Vendor };
+            stays_silent(
+                dut,
+                vendor.emit(),
+                "as identify remote slave selects no node",
+            )?;
+        }
         Some(other) => {
             return fail(
                 "LSS response 4F with 0 in bytes 1 to 7",

@@ -448,6 +448,46 @@ pub(super) fn saves_over_power(dut: &mut Dut<'_>) -> Checked {
     changed(dut, is_saved, test, true)
 }
 
+/// A command in Operational that the node confirms has its effect. Returns whether the node confirms it: it may refuse.
+fn in_operational_too(dut: &mut Dut<'_>, index: u16, signature: &[u8]) -> Checked<bool> {
+    dut.nmt(Command::Start)?;
+    let done = dut.download(Address::new(index, 1), signature)?;
+    dut.wait(600_000)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    Ok(done.is_ok())
+}
+
+/// A save in Operational is refused, or every value is there after a reset.
+pub(super) fn saves_in_operational(dut: &mut Dut<'_>) -> Checked {
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        if !in_operational_too(dut, 0x1010, b"save")? {
+            return lacks("the node does not save in Operational");
+        }
+        changes.undo(dut)?;
+        dut.reset(Command::ResetNode)?;
+        let other = |_: &Dut<'_>, change: &Change| Some(change.other.clone());
+        changes.compare(dut, other, "after a save in Operational and the reset")
+    };
+    changed(dut, is_saved, test, true)
+}
+
+/// A restore in Operational is refused, or every value has its default after a reset.
+pub(super) fn restores_in_operational(dut: &mut Dut<'_>) -> Checked {
+    let test = |dut: &mut Dut<'_>, changes: &Changes| {
+        command(dut, 0x1010, 1, b"save")?;
+        if !in_operational_too(dut, 0x1011, b"load")? {
+            return lacks("the node does not restore in Operational");
+        }
+        dut.reset(Command::ResetNode)?;
+        let default = |dut: &Dut<'_>, change: &Change| {
+            let entry = dut.eds.entry(change.address.index, change.address.sub)?;
+            dut.eds.default(&entry, dut.node)
+        };
+        changes.compare(dut, default, "after a restore in Operational and the reset")
+    };
+    changed(dut, is_saved, test, true)
+}
+
 /// The parts of 1010h and 1011h: of communication, of the application, and of the manufacturer.
 const PARTS: [(u8, Command); 3] = [
     (2, Command::ResetCommunication),
@@ -725,9 +765,9 @@ pub(super) fn self_start(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn in_operational(dut: &mut Dut<'_>) -> Checked {
     let entries = dut.eds.dictionary().entries();
     let is_one = |entry: &Entry| {
-        entry.access.writable()
-            && entry.access.readable()
-            && entry.group != Group::None
+        let is_identity = matches!(entry.address.index, 0x1000 | 0x1018);
+        entry.access.readable()
+            && (is_identity || entry.access.writable() && entry.group != Group::None)
             && entry.data_type.size().is_some_and(|size| size <= 4)
             && !(0x1F50..=0x1F5F).contains(&entry.address.index)
     };

@@ -154,7 +154,14 @@ pub(super) fn selective_other(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    Ok(())
+    // The right one selects it afterwards, without switch state global in between.
+    let right = select(dut, all)?;
+    waiting(dut)?;
+    ensure(
+        matches!(right, Some([0x44, ..])),
+        "LSS response 44 to the LSS address of the node, after those of others",
+        right.map_or("none came".into(), |answer| values::hex(&answer)),
+    )
 }
 
 pub(super) fn waiting_silent(dut: &mut Dut<'_>) -> Checked {
@@ -406,7 +413,11 @@ pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
         dut.send(Frame::standard(MASTER, &Request::Store.emit()))?;
         match dut.next(2_000_000, |frame| is_data(frame, SLAVE))? {
             Some(heard) => match heard.frame.data() {
-                [0x17, 0, _, 0, 0, 0, 0, 0] => one(dut, "LSS response 17 00"),
+                [0x17, 0, _, 0, 0, 0, 0, 0] => {
+                    one(dut, "LSS response 17 00")?;
+                    // A stored configuration can be changed again.
+                    answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0])
+                }
                 [0x17, 0, ..] => fail(
                     "0 in the reserved bytes 3 to 7 of the LSS response 17h",
                     format!("{} came", heard.frame),

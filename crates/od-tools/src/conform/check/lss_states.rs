@@ -47,6 +47,13 @@ fn shown(answer: Option<[u8; 8]>) -> String {
     answer.map_or("none".into(), |answer| values::hex(&answer))
 }
 
+fn wanted_text(answer: Option<[u8; 8]>) -> String {
+    match answer {
+        Some(answer) => format!("LSS response {}", values::hex(&answer)),
+        None => "no LSS response".into(),
+    }
+}
+
 /// A node that can be selected in Pre-operational or in Operational has the same responses there as in Stopped.
 pub(super) fn other_states(dut: &mut Dut<'_>) -> Checked {
     let all = configured(dut)?;
@@ -69,8 +76,8 @@ pub(super) fn other_states(dut: &mut Dut<'_>) -> Checked {
             let done = ensure(
                 is == *wanted,
                 format!(
-                    "LSS response {} to {command} in {state}, as in Stopped",
-                    shown(*wanted)
+                    "{} to {command} in {state}, as in Stopped",
+                    wanted_text(*wanted)
                 ),
                 format!("{} came", shown(is)),
             );

@@ -13,7 +13,7 @@ use super::{block, segments};
 use crate::conform::dut::{ANSWER, Dut, FREE, QUIET, is_data};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
-use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
+use crate::conform::sdo::{abort_of, abort_text, is_abort, number, request};
 
 const TYPE: Address = Address::new(0x1000, 0);
 
@@ -576,7 +576,28 @@ fn serves(dut: &mut Dut<'_>, index: u16) -> Checked {
             values::hex(&value)
         ),
         format!("{} was read", values::hex(&is)),
-    )
+    )?;
+    is_off(dut, channel)
+}
+
+/// A server whose COB-ID is not valid does not respond.
+fn is_off(dut: &mut Dut<'_>, channel: Channel) -> Checked {
+    let index = channel.index;
+    if !dut.eds.writes(index, 1) {
+        return Ok(());
+    }
+    let address = Address::new(index, 1);
+    let off = number(&dut.keep(address)?) as u32 | 1 << 31;
+    if dut.download(address, &off.to_le_bytes())?.is_err() {
+        return Ok(());
+    }
+    match channel.ask(dut, request(0x40, TYPE, [0; 4]), QUIET)? {
+        Some(frame) => fail(
+            format!("no response of the SDO server {index:04X}h, whose COB-ID is not valid"),
+            format!("{frame} came"),
+        ),
+        None => Ok(()),
+    }
 }
 
 /// Each SDO server has a transfer of its own.
