@@ -236,10 +236,7 @@ impl Changes {
         }
         let mut is_there = is_there.into_iter();
         self.all.retain(|_| is_there.next() == Some(true));
-        if self.all.len() < 2 {
-            return lacks("fewer than two parameters can be changed");
-        }
-        Ok(())
+        at_least_one(!self.all.is_empty(), "no parameter can be changed")
     }
 
     fn add(&mut self, address: Address, before: Vec<u8>, other: Vec<u8>) {
