@@ -42,7 +42,8 @@ pub(crate) fn count(
         Some(number) if number > 0 => Some(Spanned::new(HIGHEST, given.span)),
         _ => None,
     };
-    reader.report(w0313_compact_not_valid(&given));
+    let most = count.as_ref().map(|count| count.value);
+    reader.report(w0313_compact_not_valid(&given, most));
     if count.is_none() {
         unread.push(("CompactSubObj".into(), given.value.into_owned()));
     }

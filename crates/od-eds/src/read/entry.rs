@@ -87,7 +87,7 @@ impl Reader<'_> {
         assumed: Assumed,
     ) -> (EntryDescription, Unread) {
         let mut unread = Vec::new();
-        let data_type = match self.data_type(fields, &mut unread) {
+        let data_type = match self.data_type(fields, &assumed, &mut unread) {
             None if unread.is_empty() => self.assumed(assumed, fields.header).map(Spanned::from),
             given => given,
         };
@@ -181,6 +181,7 @@ impl Reader<'_> {
     fn data_type(
         &mut self,
         fields: &mut Fields<'_>,
+        assumed: &Assumed,
         unread: &mut Unread,
     ) -> Option<Spanned<DataType>> {
         let of = |code: i128| DataType::from_code(u16::try_from(code).ok()?);
@@ -189,14 +190,25 @@ impl Reader<'_> {
         let read = |reader: &mut Self, given: &Text<'_>| {
             reader.coded(key, given, of, words::data_type, right)
         };
-        let found = self.keyed(fields, unread, key, read, e0402_data_type_unknown)?;
+        let standard = match assumed {
+            Assumed::Domain => Some(DataType::Domain),
+            Assumed::Standard { sub, is_whole } => {
+                cia301::data_type(self.address.index, *sub, *is_whole)
+            }
+        };
+        let wrong = |given: &Text<'_>| e0402_data_type_unknown(given, standard);
+        let found = self.keyed(fields, unread, key, read, wrong)?;
         Some(Spanned::new(found.value?, found.span))
     }
 
     fn access(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<Access> {
         let read = |reader: &mut Self, given: &Text<'_>| reader.access_word(given);
         let key = Key::AccessType;
-        let Some(found) = self.keyed(fields, unread, key, read, e0405_access_type_not_valid) else {
+        let Address { index, sub } = self.address;
+        let standard = cia301::of(index).and_then(|standard| standard.value(sub));
+        let standard = standard.map(|value| value.access);
+        let wrong = |given: &Text<'_>| e0405_access_type_not_valid(given, standard);
+        let Some(found) = self.keyed(fields, unread, key, read, wrong) else {
             self.report(w0404_access_type_missing(fields.header));
             return Spanned::from(Access::Ro);
         };

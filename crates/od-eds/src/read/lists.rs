@@ -27,7 +27,7 @@ pub(crate) fn check(
     let mut listed: BTreeMap<u16, Span> = BTreeMap::new();
     for (list, sections) in lists {
         for section in sections {
-            entries(*list, section, description, made, &mut listed, log);
+            entries(*list, section, lists, description, made, &mut listed, log);
         }
     }
     if description.objects.is_empty() {
@@ -64,6 +64,7 @@ pub(crate) fn check(
 fn entries(
     list: List,
     placed: &TextSection<'_>,
+    lists: &BTreeMap<List, Vec<TextSection<'_>>>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     listed: &mut BTreeMap<u16, Span>,
@@ -125,7 +126,9 @@ fn entries(
             log.push(w0201_section_missing(value.span, index));
         }
         if List::of(index) != list {
-            log.push(w0206_wrong_list(value.span, index, list));
+            let right = lists.get(&List::of(index));
+            let listed = right.and_then(|sections| moved(sections.first()?, index, description));
+            log.push(w0206_wrong_list(value.span, index, list, listed));
         }
     }
     let given = count.and_then(|count| number(count));
@@ -140,6 +143,16 @@ fn entries(
             highest,
         ));
     }
+}
+
+/// The fix that adds an object to its list, without an edit if the list has the object; `None` if the list is not whole.
+fn moved(to: &TextSection<'_>, object: u16, description: &Description) -> Option<Fix> {
+    let entries = to.pairs.iter().filter(|(key, _)| number(key).is_some());
+    let mut listed = entries.filter_map(|(_, value)| index(value, description));
+    if listed.any(|listed| listed == object) {
+        return Some(Fix::unsafe_fix());
+    }
+    Some(w0202_listed(to, &[object])).filter(|fix| !fix.edits.is_empty())
 }
 
 /// Returns whether a list names an object that it or an earlier list names, too.

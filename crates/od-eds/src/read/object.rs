@@ -19,6 +19,7 @@ use crate::rules::structure::reader::{
 };
 use crate::scan::section::{Text, TextSection};
 use crate::span::Spanned;
+use crate::standards::cia301;
 use od_model::{Address, ObjectCode};
 
 /// The sections of one object.
@@ -234,13 +235,11 @@ fn object_code(
         ObjectCode::Var
     };
     let read = |reader: &mut Reader<'_>, given: &Text<'_>| reader.object_code(given);
-    match reader.keyed(
-        fields,
-        unread,
-        Key::ObjectType,
-        read,
-        e0301_object_code_unknown,
-    ) {
+    // The code of the standard, if it has such sub-objects.
+    let standard = cia301::of(reader.address.index).map(|standard| standard.code());
+    let right = standard.filter(|code| code.has_members() == has_members);
+    let wrong = |given: &Text<'_>| e0301_object_code_unknown(given, right.unwrap_or(guess));
+    match reader.keyed(fields, unread, Key::ObjectType, read, wrong) {
         Some(found) => Spanned::new(found.value.unwrap_or(guess), found.span),
         None => {
             if has_members {

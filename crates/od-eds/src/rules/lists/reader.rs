@@ -179,16 +179,28 @@ pub(crate) static W0206: Rule = Rule {
     why: "A tool that reads only one list misses the object. 2000h to 5FFFh belong to [ManufacturerObjects], 1000h, 1001h and 1018h to [MandatoryObjects], all others to [OptionalObjects].",
     source: "CiA 306-1, object lists",
     says: "{object} belongs to [{right}], not to [{wrong}]",
-    help: "move the entry to [{right}]",
+    fixability: Fixability::Unsafe,
+    help: "move the entry to [{right}]{fix}",
     ..Rule::of("W0206")
 };
 
-pub(crate) fn w0206_wrong_list(entry: Span, index: u16, list: List) -> Finding {
+/// The finding about an entry of this list. The fix removes the entry, and `listed` adds it to the right list, if that
+/// does not have it.
+pub(crate) fn w0206_wrong_list(
+    entry: Span,
+    index: u16,
+    list: List,
+    listed: Option<Fix>,
+) -> Finding {
     W0206
         .at(entry)
         .index(index)
         .fact("right", List::of(index).name())
         .fact("wrong", list.name())
+        .fix(match listed {
+            Some(fix) => fix.remove_line(entry),
+            None => Fix::unsafe_fix(),
+        })
 }
 
 pub(crate) static W0207: Rule = Rule {

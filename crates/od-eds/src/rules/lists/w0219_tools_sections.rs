@@ -1,8 +1,10 @@
 use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::scan::number::number;
 
 pub(crate) static W0219: Rule = Rule {
@@ -10,7 +12,8 @@ pub(crate) static W0219: Rule = Rule {
     why: "A tool cannot start the program that belongs to the device.",
     source: "CiA 306-1, Tools",
     says: "Items is {given}, but section [Tool{tool}] is missing",
-    help: "add a section [Tool{tool}], or lower Items",
+    help: "add a section [Tool{tool}], or lower Items{fix}",
+    fixability: Fixability::Unsafe,
     also: &[LACKS],
     check: Check::Device(check),
     ..Rule::of("W0219")
@@ -31,7 +34,15 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     for tool in 1..=number(items).unwrap_or(0).clamp(0, 255) {
         let Some(section) = description.section(&format!("Tool{tool}")) else {
-            findings.push(W0219.given(items).fact("tool", tool));
+            let finding = W0219.given(items).fact("tool", tool);
+            let mut behind = (tool + 1..=255).map(|later| format!("Tool{later}"));
+            let is_last = !behind.any(|later| description.section(&later).is_some());
+            let fix = Fix::unsafe_fix();
+            findings.push(if is_last {
+                finding.fix(fix.replace(items.span, (tool - 1).to_string()))
+            } else {
+                finding
+            });
             continue;
         };
         for field in ["Name", "Command"] {

@@ -2,7 +2,8 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::scan::number::number;
 use od_model::{Access, DataType};
 
@@ -11,8 +12,9 @@ pub(crate) static W0246: Rule = Rule {
     why: "A programmable device cannot place its variables. Network variables are at A000h to AFFFh.",
     source: "CiA 306-1, DynamicChannels; CiA 302, network variables",
     says: "{field} `{given}` is not a range of A000h to AFFFh",
-    help: "write the first and the last index, such as `0xA080-0xA0BF`",
+    help: "write {right}{fix}",
     also: &[TYPE, DIRECTION, MEETS, COUNT, BEYOND],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0246")
 };
@@ -95,7 +97,20 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         }
         if let Some((finding, given)) = field("Range") {
             let Some(own) = range(given) else {
-                findings.push(finding);
+                let turned = given.split_once('-').map(|(last, first)| {
+                    let (last, first) = (last.trim(), first.trim());
+                    format!("{first}-{last}")
+                });
+                findings.push(match turned.filter(|right| range(right).is_some()) {
+                    Some(right) => {
+                        let fix = Fix::unsafe_fix().replace(given.span, right.as_str());
+                        finding.fact("right", format!("`{right}`")).fix(fix)
+                    }
+                    None => finding.fact(
+                        "right",
+                        "the first and the last index, such as `0xA080-0xA0BF`",
+                    ),
+                });
                 continue;
             };
             let meets =

@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::scan::number::number;
 
 pub(crate) static W0247: Rule = Rule {
@@ -9,8 +10,9 @@ pub(crate) static W0247: Rule = Rule {
     why: "A tool for programmable devices places no variables, or looks for a section that does not exist.",
     source: "CiA 306-1, DeviceInfo and DynamicChannels",
     says: "DynamicChannelsSupported is {given}, but section [DynamicChannels] is missing",
-    help: "add a section [DynamicChannels], or write 0",
+    help: "add a section [DynamicChannels], or write 0{fix}",
     also: &[DENIED],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0247")
 };
@@ -28,7 +30,10 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let given = info.get("DynamicChannelsSupported");
     let count = given.and_then(|given| number(given)).unwrap_or(0);
     match (description.section("DynamicChannels"), given) {
-        (None, Some(given)) if count > 0 => findings.push(W0247.given(given)),
+        (None, Some(given)) if count > 0 => {
+            let fix = Fix::unsafe_fix().replace(given.span, "0");
+            findings.push(W0247.given(given).fix(fix));
+        }
         (Some(channels), given) if count == 0 => {
             let span = given.map_or(channels.name.span, |given| given.span);
             let finding = W0247.at(span).form(&DENIED);

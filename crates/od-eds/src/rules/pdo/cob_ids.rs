@@ -59,21 +59,51 @@ impl CobId<'_> {
         }
     }
 
-    /// The number that CiA 301 adds to the node ID for this COB-ID: of EMCY and of the first four PDOs of each direction.
-    pub(super) fn predefined(&self) -> Option<u32> {
+    /// The number that CiA 301 gives this COB-ID by default, and whether the node ID is added to it: of SYNC, TIME, EMCY
+    /// and the first four PDOs of each direction.
+    pub(super) fn predefined(&self) -> Option<(u32, bool)> {
         match (self.entry.address.index, self.entry.address.sub) {
-            (0x1014, 0) => Some(0x80),
-            (index @ 0x1400..=0x1403, 1) => Some(0x200 + 0x100 * u32::from(index - 0x1400)),
-            (index @ 0x1800..=0x1803, 1) => Some(0x180 + 0x100 * u32::from(index - 0x1800)),
+            (0x1005, 0) => Some((0x80, false)),
+            (0x1012, 0) => Some((0x100, false)),
+            (0x1014, 0) => Some((0x80, true)),
+            (index @ 0x1400..=0x1403, 1) => Some((0x200 + 0x100 * u32::from(index - 0x1400), true)),
+            (index @ 0x1800..=0x1803, 1) => Some((0x180 + 0x100 * u32::from(index - 0x1800), true)),
             _ => None,
         }
     }
 
-    /// The fix that writes the predefined COB-ID with the flags of this one.
-    pub(super) fn fix(&self) -> Option<Fix> {
-        let value = self.predefined()? | self.value & 0xC000_0000;
-        let fix = Fix::unsafe_fix();
-        Some(fix.replace(self.span, format!("$NODEID+0x{value:X}")))
+    /// Returns whether it is the one that CiA 301 gives the service by default.
+    pub(super) fn is_default(&self) -> bool {
+        self.predefined() == Some((self.identifier, self.formula)) && !self.extended
+    }
+
+    /// The default COB-ID with the flags of this one, as a file writes it.
+    pub(super) fn default(&self) -> Option<String> {
+        let (base, formula) = self.predefined()?;
+        let value = base | self.value & 0xC000_0000;
+        Some(if formula {
+            format!("$NODEID+0x{value:X}")
+        } else {
+            format!("0x{value:X}")
+        })
+    }
+
+    /// The finding with the COB-ID to write as its fact `right`: the default with the flags of this one, which a fix writes,
+    /// unless this one or another one of the device has it.
+    pub(super) fn with_default(&self, finding: Finding, all: &[CobId<'_>]) -> Finding {
+        let is_taken = |default| {
+            let of = |one: &CobId<'_>| (one.identifier, one.formula);
+            all.iter().any(|one| !one.extended && of(one) == default)
+        };
+        let is_free = !self.predefined().is_some_and(is_taken);
+        match self.default().filter(|_| is_free) {
+            Some(right) => {
+                let said = format!("`{right}`, its default");
+                let fix = Fix::unsafe_fix().replace(self.span, right);
+                finding.fact("right", said).fix(fix)
+            }
+            None => finding.fact("right", "a CAN-ID that is free"),
+        }
     }
 
     /// The CAN-ID of a device with this node ID.

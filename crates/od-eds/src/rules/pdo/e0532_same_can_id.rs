@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::rules::pdo::cob_ids::{CobId, Service, cob_ids};
 
 pub(crate) static E0532: Rule = Rule {
@@ -10,8 +10,9 @@ pub(crate) static E0532: Rule = Rule {
     why: "Two devices send with the same CAN-ID, which ends in bus errors, or a device takes the message of one service for that of the other.",
     source: "CiA 301, COB-ID and predefined connection set",
     says: "{object} has CAN-ID {id}, which is that of {other}",
-    help: "write a CAN-ID that no other service has, or set bit 31 (`0x80000000`) if the service is not used",
+    help: "write {right}{fix}, or set bit 31 (`0x80000000`) if the service is not used",
     also: &[ONE, DEFAULT, DEFAULT_ONE, SHARED],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("E0532")
 };
@@ -37,13 +38,13 @@ const DEFAULT_ONE: Form = Form {
 /// Sentence for a COB-ID that all nodes must share.
 const SHARED: Form = Form {
     says: "{object} has CAN-ID {id}, but all nodes share the CAN-ID of SYNC and TIME",
-    help: "write the same number for all nodes: `0x80` for SYNC, `0x100` for TIME",
+    help: "write {right}{fix}; it is a number without `$NODEID`",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let mut all: Vec<CobId<'_>> = cob_ids(description).collect();
     // The one that is at its default keeps its CAN-ID.
-    all.sort_by_key(|cob_id| (!is_default(cob_id), cob_id.service, cob_id.entry.address));
+    all.sort_by_key(|cob_id| (!cob_id.is_default(), cob_id.service, cob_id.entry.address));
     for (number, cob_id) in all.iter().enumerate() {
         let about = |other: Fact| {
             let finding = cob_id.finding(&E0532).fact("object", cob_id.entry.shown());
@@ -55,7 +56,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         };
         if cob_id.formula && matches!(cob_id.service, Service::Sync | Service::Time) {
             let finding = cob_id.finding(&E0532).fact("object", cob_id.entry.shown());
-            findings.push(finding.fact("id", cob_id.shown()).form(&SHARED));
+            let finding = finding.fact("id", cob_id.shown()).form(&SHARED);
+            findings.push(cob_id.with_default(finding, &all));
             continue;
         }
         let before = all[..number].iter().filter(|other| collide(other, cob_id));
@@ -78,7 +80,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
                 None => continue,
             },
         };
-        findings.push(finding);
+        findings.push(cob_id.with_default(finding, &all));
     }
 }
 
@@ -105,20 +107,6 @@ fn by_default(cob_id: &CobId<'_>, all: &[CobId<'_>]) -> Option<(u8, &'static str
         };
         Some((node, service))
     })
-}
-
-/// Returns whether the pre-defined connection set gives the service this COB-ID.
-const fn is_default(cob_id: &CobId<'_>) -> bool {
-    let index = cob_id.entry.address.index;
-    let (formula, base) = match index {
-        0x1005 => (false, 0x80),
-        0x1012 => (false, 0x100),
-        0x1014 => (true, 0x80),
-        0x1400..=0x1403 => (true, 0x200 + (index as u32 & 3) * 0x100),
-        0x1800..=0x1803 => (true, 0x180 + (index as u32 & 3) * 0x100),
-        _ => return false,
-    };
-    cob_id.formula == formula && cob_id.identifier == base
 }
 
 /// Returns whether these two must not have the same CAN-ID. Two PDOs have their own rule, and two

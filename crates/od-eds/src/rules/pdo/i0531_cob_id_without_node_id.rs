@@ -2,6 +2,7 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::pdo::cob_ids::cob_ids;
 
 pub(crate) static I0531: Rule = Rule {
@@ -30,9 +31,11 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             let base = id & 0x780;
             let finding = cob_id.finding(&I0531).fact("id", id).fact("base", base);
             // A fix that changes the base could take the CAN-ID of another PDO: only the author can decide that.
-            let fix = cob_id.fix().filter(|_| cob_id.predefined() == Some(base));
-            findings.push(match fix {
-                Some(fix) => finding.fix(fix),
+            let default = cob_id
+                .default()
+                .filter(|_| cob_id.predefined() == Some((base, true)));
+            findings.push(match default {
+                Some(right) => finding.fix(Fix::unsafe_fix().replace(cob_id.span, right)),
                 None => finding,
             });
         }

@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity};
+use crate::finding::Finding;
+use crate::finding::{Check, Fixability, Form, Rule, Severity};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static W0521: Rule = Rule {
@@ -10,8 +11,9 @@ pub(crate) static W0521: Rule = Rule {
     why: "A receiver cannot tell two PDOs with the same COB-ID apart.",
     source: "CiA 301, PDO communication parameter",
     says: "{object} repeats the COB-ID of {first}",
-    help: "write another COB-ID, or set bit 31 (`0x80000000`) to make the PDO not valid",
+    help: "write {right}{fix}, or set bit 31 (`0x80000000`) to make the PDO not valid",
     also: &[ONE],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0521")
 };
@@ -23,7 +25,8 @@ const ONE: Form = Form {
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    let pdos: Vec<CobId<'_>> = cob_ids(description).filter(CobId::is_pdo).collect();
+    let all: Vec<CobId<'_>> = cob_ids(description).collect();
+    let pdos: Vec<&CobId<'_>> = all.iter().filter(|cob_id| cob_id.is_pdo()).collect();
     for (at, cob_id) in pdos.iter().enumerate() {
         let before = pdos[..at].iter();
         let mut met = before.filter_map(|first| Some((first, cob_id.meets(first)?)));
@@ -45,7 +48,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             } else {
                 finding.severity_of(Severity::Warning)
             };
-            findings.push(finding.related(first.span, "first used here"));
+            let finding = finding.related(first.span, "first used here");
+            findings.push(cob_id.with_default(finding, &all));
         }
     }
 }

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static W0522: Rule = Rule {
@@ -10,8 +10,9 @@ pub(crate) static W0522: Rule = Rule {
     why: "Bit 29 of a COB-ID marks a CAN-ID of 29 bits; without it, bits 11 to 28 must be 0. Many nodes drop the upper bits: 800h becomes 000h, an NMT command.",
     source: "CiA 301, COB-ID",
     says: "CAN-ID `0x{id:X}` has more than 11 bits, but bit 29 is 0",
-    help: "write a CAN-ID up to `0x7FF`, or set bit 29 (`0x20000000`)",
+    help: "write {right}{fix}, or set bit 29 (`0x20000000`) for a CAN-ID above `0x7FF`",
     also: &[SOME],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0522")
 };
@@ -19,12 +20,14 @@ pub(crate) static W0522: Rule = Rule {
 /// Sentence for a CAN-ID that is too long with the node ID added.
 const SOME: Form = Form {
     says: "the CAN-ID of node ID {node} is {can:X}h, which has more than {bits} bits; cut off, it is {cut:03X}h",
-    help: "write a lower number, so that the CAN-ID of node IDs 1 to 127 fits into {bits} bits",
+    help: "write {right}{fix}, so that the CAN-ID of node IDs 1 to 127 fits into {bits} bits",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    for cob_id in cob_ids(description) {
-        findings.extend(cob_id.too_long().map(|node| finding(&cob_id, node)));
+    let all: Vec<CobId<'_>> = cob_ids(description).collect();
+    for cob_id in &all {
+        let found = cob_id.too_long().map(|node| finding(cob_id, node));
+        findings.extend(found.map(|found| cob_id.with_default(found, &all)));
     }
 }
 

@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
@@ -10,7 +11,8 @@ pub(crate) static W0536: Rule = Rule {
     why: "The device ignores the start value: SYNC messages have a counter only if 1019h is not 0.",
     source: "CiA 301, PDO communication parameter and object 1019h",
     says: "SYNC start value is {given}, but object 1019h is missing",
-    help: "add {missing}, or write 0",
+    help: "add {missing}, or write 0{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Object(check),
     ..Rule::of("W0536")
 };
@@ -25,6 +27,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if let Some(given) = given.filter(|given| given.value != 0) {
         let finding = W0536.on(object, given.span).about(address);
         let finding = finding.fact("given", given.value);
-        findings.push(finding.fact("missing", Fact::Section(0x1019, None)));
+        let finding = finding.fact("missing", Fact::Section(0x1019, None));
+        findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, "0")));
     }
 }

@@ -1,6 +1,8 @@
+use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
@@ -9,7 +11,8 @@ pub(crate) static W0538: Rule = Rule {
     why: "The client asks the node of the COB-ID, and a tool that reads sub-index 3 takes the response for that of another node.",
     source: "CiA 301, SDO client parameter and predefined connection set",
     says: "CAN-ID {id:03X}h is that of the default SDO of node {node}, but sub-index 3 is {server}",
-    help: "write `0x{right:03X}`, or node ID {node} in sub-index 3",
+    help: "write `0x{right:X}`{fix}, or node ID {node} in sub-index 3",
+    fixability: Fixability::Unsafe,
     check: Check::Object(check),
     ..Rule::of("W0538")
 };
@@ -32,7 +35,10 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             let finding = W0538.on(object, given.span).about(address);
             let finding = finding.fact("id", given.value).fact("node", node);
             let finding = finding.fact("server", server.value);
-            let finding = finding.fact("right", base + server.value);
+            let right = base + server.value;
+            let finding = finding.fact("right", right);
+            let finding =
+                finding.fix(Fix::unsafe_fix().replace(given.span, format!("0x{right:X}")));
             findings.push(finding.related(server.span, "node ID of the server"));
         }
     }

@@ -1,7 +1,9 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::fact::shown as text;
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::device;
 use crate::rules::values::limits::order;
 use crate::subject::{Entry, shown, start_value};
@@ -12,7 +14,8 @@ pub(crate) static W0911: Rule = Rule {
     why: "No value is between the limits: a drive rejects every position, and an area or an alarm has no effect.",
     source: "CiA 401, 6424h, 6425h, 6429h, 642Ah; CiA 402, 6046h, 607Bh, 607Dh; CiA 404, 6134h to 6149h; CiA 406, 6401h, 6402h",
     says: "upper limit {object} is {high}, but lower limit {lower} is {low}",
-    help: "write the lower limit to {lower} and the upper limit to {object}",
+    help: "write the lower limit to {lower} and the upper limit to {object}{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Entry(check),
     ..Rule::of("W0911")
 };
@@ -45,6 +48,10 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         let finding = finding.fact("lower", shown(object, lower));
         let finding = finding.fact("low", low.value.clone());
         let finding = finding.fact("high", high.value.clone());
-        findings.push(finding.related(low.span, "lower limit set here"));
+        let finding = finding.related(low.span, "lower limit set here");
+        let swap = Fix::unsafe_fix()
+            .replace(high.span, text(&low.value))
+            .replace(low.span, text(&high.value));
+        findings.push(finding.fix(swap));
     }
 }

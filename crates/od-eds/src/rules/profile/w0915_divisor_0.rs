@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::description::Value;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_number, start_value};
 use od_model::Address;
@@ -11,8 +12,9 @@ pub(crate) static W0915: Rule = Rule {
     why: "A device that follows the profile aborts a download of 0, and a master that scales positions divides by it. With a factor of 0 each scaled value is the same.",
     source: "CiA 401, objects 642Fh to 6447h; CiA 402, objects 608Fh to 6092h; CiA 404, object 6126h; CiA 406, objects 6001h and 6501h",
     says: "{object} is 0, but positions are divided by it",
-    help: "write the number of increments or revolutions, 1 or more",
+    help: "write the number of increments or revolutions, 1 or more{fix}",
     also: &[FACTOR],
+    fixability: Fixability::Unsafe,
     check: Check::Entry(check),
     ..Rule::of("W0915")
 };
@@ -20,7 +22,7 @@ pub(crate) static W0915: Rule = Rule {
 /// Sentence for a factor.
 const FACTOR: Form = Form {
     says: "{object} is 0, but it is the factor of each value of the channel",
-    help: "write the factor; 1 changes no value",
+    help: "write the factor; 1 changes no value{fix}",
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
@@ -36,7 +38,14 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && device(entry.description, profile).is_some()
         && (entry.address.index != 0x6002 || scales(entry))
     {
-        findings.push(W0915.on(entry, number.span).fact("object", entry.shown()));
+        let finding = W0915.on(entry, number.span).fact("object", entry.shown());
+        // Most drives count for one revolution.
+        let is_divisor = profile == 402 && entry.address.sub == 2;
+        findings.push(if is_divisor {
+            finding.fix(Fix::unsafe_fix().replace(number.span, "1"))
+        } else {
+            finding
+        });
     }
 }
 
@@ -47,7 +56,8 @@ fn factor(entry: &Entry<'_>, profile: u16, findings: &mut Vec<Finding>) {
         && device(entry.description, profile).is_some()
     {
         let finding = W0915.on(entry, value.span).form(&FACTOR);
-        findings.push(finding.fact("object", entry.shown()));
+        let fix = Fix::unsafe_fix().replace(value.span, "1");
+        findings.push(finding.fact("object", entry.shown()).fix(fix));
     }
 }
 

@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::description::{Description, Value};
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::device;
 use crate::span::Spanned;
 use crate::subject::start_number;
@@ -12,8 +13,9 @@ pub(crate) static W0919: Rule = Rule {
     why: "A master selects the mode by writing 6060h. The drive refuses it, so its other modes are never used.",
     source: "CiA 402, objects 6060h and 6502h",
     says: "6502h declares {count} modes, but 6060h cannot be written",
-    help: "change {AccessType} to `rw`, or declare one mode in 6502h",
+    help: "change {AccessType} to `rw`{fix}, or declare one mode in 6502h",
     also: &[LIMITED],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0919")
 };
@@ -38,7 +40,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     {
         let finding = W0919.at(entry.access.span).about(address);
         let finding = finding.fact("count", count);
-        findings.push(finding.related(modes.span, "supported modes"));
+        let fix = Fix::unsafe_fix().replace(entry.access.span, "rw");
+        findings.push(finding.related(modes.span, "supported modes").fix(fix));
     }
     if let Some(entry) = description.entry(address)
         && device(description, 402).is_some()

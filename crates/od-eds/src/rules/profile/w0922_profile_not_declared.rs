@@ -1,8 +1,10 @@
+use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity};
+use crate::fix::Fix;
 use crate::rules::profile::shared::device_type;
 use crate::standards::checked;
 use crate::subject::start_number;
@@ -13,8 +15,9 @@ pub(crate) static W0922: Rule = Rule {
     why: "A master that reads from 1000h what the device is does not use it as such a device.",
     source: "CiA 301, object 1000h; CiA 401, CiA 402, CiA 404 and CiA 406, object overview",
     says: "1000h declares device profile {declared}, but {objects} are objects of CiA {profile}",
-    help: "write {profile} (0x{profile:X}) to bits 0 to 15 of 1000h",
+    help: "write {profile} (0x{profile:X}) to bits 0 to 15 of 1000h{fix}",
     also: &[NONE],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0922")
 };
@@ -62,6 +65,9 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let finding = W0922.at(number.span).about(Address::new(0x1000, 0));
         let finding = finding.fact("objects", Fact::List(objects));
         let finding = finding.fact("profile", u32::from(*profile));
+        let right = number.value & 0xFFFF_0000 | u64::from(*profile);
+        let fix = Fix::unsafe_fix().replace(number.span, format!("0x{right:08X}"));
+        let finding = finding.fix(fix);
         findings.push(match device.profile {
             // A master can still use the objects that it knows.
             0 => finding.form(&NONE).severity_of(Severity::Info),

@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
@@ -10,7 +11,8 @@ pub(crate) static W0955: Rule = Rule {
     why: "The encoder cannot take the preset value as its position. Positions are 0 to 6002h minus 1.",
     source: "CiA 406, object 6003h",
     says: "preset value {preset} is outside the range 0 to {last}",
-    help: "write a position in the range, such as `{DefaultValue=0}`",
+    help: "write a position in the range, such as `{DefaultValue=0}`{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0955")
 };
@@ -27,6 +29,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let finding = finding
             .fact("preset", preset.value)
             .fact("last", range.value - 1);
-        findings.push(finding.related(range.span, "6002h is set here"));
+        let finding = finding.related(range.span, "6002h is set here");
+        findings.push(finding.fix(Fix::unsafe_fix().replace(preset.span, "0")));
     }
 }

@@ -1,7 +1,9 @@
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
@@ -10,7 +12,8 @@ pub(crate) static W0956: Rule = Rule {
     why: "The encoder cannot deliver steps that are finer than its singleturn resolution.",
     source: "CiA 406, objects 6001h and 6501h",
     says: "6001h is {units}, but the singleturn resolution (6501h) is {physical}",
-    help: "write at most {physical}",
+    help: "write at most {physical}{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0956")
 };
@@ -27,6 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let finding = finding
             .fact("units", units.value)
             .fact("physical", physical.value);
-        findings.push(finding.related(physical.span, "6501h is set here"));
+        let fix = Fix::unsafe_fix().replace(units.span, physical.value.to_string());
+        findings.push(finding.related(physical.span, "6501h is set here").fix(fix));
     }
 }

@@ -2,7 +2,8 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
@@ -11,7 +12,8 @@ pub(crate) static W0959: Rule = Rule {
     why: "A master shows an alarm or a warning that the device cannot report. 6503h and 6505h use only the bits of 6504h and 6506h.",
     source: "CiA 406, objects 6503h to 6506h",
     says: "{object} sets bits 0x{more:X}, which {supported} does not support",
-    help: "write `{DefaultValue=0}`",
+    help: "write `{DefaultValue=0}`{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0959")
 };
@@ -32,7 +34,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
                 .fact("object", Fact::Index(index))
                 .fact("more", more);
             let finding = finding.fact("supported", Fact::Index(index + 1));
-            findings.push(finding.related(supported.span, "supported bits are set here"));
+            let finding = finding.related(supported.span, "supported bits are set here");
+            findings.push(finding.fix(Fix::unsafe_fix().replace(active.span, "0")));
         }
     }
 }

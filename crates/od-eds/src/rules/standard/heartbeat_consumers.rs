@@ -3,7 +3,8 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_number};
 
@@ -13,7 +14,8 @@ pub(crate) static E0650: Rule = Rule {
     why: "CiA 301 allows one entry for each node. The device aborts the download of the second entry.",
     source: "CiA 301, object 1016h",
     says: "node {node} has a heartbeat time in an entry before",
-    help: "write 0, or the node ID of another node in bits 16 to 23",
+    help: "write 0{fix}, or the node ID of another node in bits 16 to 23",
+    fixability: Fixability::Unsafe,
     check: Check::Object(check_twice),
     ..Rule::of("E0650")
 };
@@ -24,7 +26,7 @@ fn check_twice(object: &Object<'_>, findings: &mut Vec<Finding>) {
         match known.get(&node) {
             None => drop(known.insert(node, span)),
             Some(first) => {
-                let finding = E0650.on(&entry, span).fact("node", node);
+                let finding = finding(&E0650, &entry, span, node);
                 findings.push(finding.related(*first, "first time of this node"));
             }
         }
@@ -36,14 +38,15 @@ pub(crate) static W0651: Rule = Rule {
     why: "The device ignores the entry, so it watches no node. Bits 16 to 23 are the node ID, 1 to 127, bits 0 to 15 the time.",
     source: "CiA 301, object 1016h",
     says: "node ID {node} is not valid, but the entry has a heartbeat time",
-    help: "write a node ID from 1 to 127 in bits 16 to 23, or 0 for no entry",
+    help: "write a node ID from 1 to 127 in bits 16 to 23, or 0 for no entry{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Object(check_nobody),
     ..Rule::of("W0651")
 };
 
 fn check_nobody(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let wrong = consumers(object).filter(|(_, _, node)| !(1..=127).contains(node));
-    findings.extend(wrong.map(|(entry, span, node)| W0651.on(&entry, span).fact("node", node)));
+    findings.extend(wrong.map(|(entry, span, node)| finding(&W0651, &entry, span, node)));
 }
 
 pub(crate) static W0652: Rule = Rule {
@@ -51,7 +54,8 @@ pub(crate) static W0652: Rule = Rule {
     why: "A node does not receive its own heartbeat, so after the first one of a node with the same ID it reports an error.",
     source: "CiA 301, object 1016h",
     says: "the entry monitors node {node}, which is this node",
-    help: "write the node ID of another node in bits 16 to 23, or 0 for no entry",
+    help: "write the node ID of another node in bits 16 to 23, or 0 for no entry{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Object(check_itself),
     ..Rule::of("W0652")
 };
@@ -59,7 +63,13 @@ pub(crate) static W0652: Rule = Rule {
 fn check_itself(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let own = object.description.commissioned_node_id();
     let wrong = consumers(object).filter(|(_, _, node)| own.is_some_and(|own| own == *node));
-    findings.extend(wrong.map(|(entry, span, node)| W0652.on(&entry, span).fact("node", node)));
+    findings.extend(wrong.map(|(entry, span, node)| finding(&W0652, &entry, span, node)));
+}
+
+/// The finding about an entry of a node, with the fix that empties the entry.
+fn finding(rule: &'static Rule, entry: &Entry<'_>, span: Span, node: u8) -> Finding {
+    let finding = rule.on(entry, span).fact("node", node);
+    finding.fix(Fix::unsafe_fix().replace(span, "0"))
 }
 
 /// The entries of 1016h that have a heartbeat time, with their node IDs.

@@ -2,13 +2,14 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use crate::finding::{
     Finding, Fixability, Form, Rule,
     Severity::{Error, Info, Warning},
 };
 use crate::fix::Fix;
-use crate::scan::forms::{Form as Wanted, day};
+use crate::scan::forms::{Form as Wanted, date, day, time};
 use crate::scan::section::Text;
 use crate::span::Span;
 
@@ -106,14 +107,9 @@ pub(crate) static I0610: Rule = Rule {
     why: "Some editors drop the value; odkit keeps it. CiA 306 specifies `MM-DD-YYYY` and `hh:mmAM`.",
     source: "CiA 306-1, FileInfo",
     says: "{name} `{given}` is not as CiA 306 specifies",
-    help: "write month, day and year, such as `07-14-2026`",
-    also: &[I0610_TIME],
+    fixability: Fixability::Unsafe,
+    help: "write {right}{fix}",
     ..Rule::of("I0610")
-};
-
-const I0610_TIME: Form = Form {
-    help: "write hour, minute, and AM or PM, such as `09:30AM`",
-    ..Form::OWN
 };
 
 pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
@@ -123,10 +119,52 @@ pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) ->
     } else {
         finding.severity_of(Warning)
     };
-    match wanted {
-        Wanted::Time => finding.form(&I0610_TIME),
-        _ => finding,
+    let (right, wanted) = match wanted {
+        Wanted::Time => (
+            right_time(given),
+            "hour, minute, and AM or PM, such as `09:30AM`",
+        ),
+        _ => (
+            right_date(given),
+            "month, day and year, such as `07-14-2026`",
+        ),
+    };
+    match right {
+        Some(right) => {
+            let fix = Fix::unsafe_fix().replace(given.span, right.as_str());
+            finding.fact("right", format!("`{right}`")).fix(fix)
+        }
+        None => finding.fact("right", wanted),
     }
+}
+
+/// A date as CiA 306 specifies, if the text can only be read as this day: the year is first, or points are between day and
+/// month, or only one of the two can be the month.
+fn right_date(text: &str) -> Option<String> {
+    let is_day = |text: &String| day(text).is_some();
+    let iso = text.replace(['/', '.'], "-");
+    if iso.find('-') == Some(4) {
+        return Some(date(&iso)).filter(is_day);
+    }
+    let parts: Vec<&str> = iso.split('-').collect();
+    let [one, other, year] = parts[..] else {
+        return None;
+    };
+    let [first, turned] = [(one, other), (other, one)]
+        .map(|(month, day)| Some(format!("{month:0>2}-{day:0>2}-{year}")).filter(is_day));
+    match (first, turned) {
+        (_, Some(turned)) if text.contains('.') => Some(turned),
+        (Some(only), None) | (None, Some(only)) => Some(only),
+        _ => None,
+    }
+}
+
+/// A time as CiA 306 specifies, of one with hours from 0 to 23.
+fn right_time(text: &str) -> Option<String> {
+    let upper = text.to_ascii_uppercase();
+    let plain = upper.trim_end_matches(['A', 'P', 'M', ' ']);
+    let right = time(plain);
+    (right != plain).then_some(right)
 }
 
 /// Returns whether a time has fewer than 60 minutes, and whether a date is a day of the calendar with month and day in either

@@ -1,7 +1,9 @@
+use alloc::format;
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity};
+use crate::fix::Fix;
 use crate::standards::cia301::{Members, Standard, of};
 use crate::subject::Object;
 use od_model::ObjectCode;
@@ -13,7 +15,8 @@ pub(crate) static W0630: Rule = Rule {
     why: "A master that knows the object from the standard reads sub-indices that do not exist, or misses some that exist.",
     source: "CiA 301, chapter 7.5; CiA 302",
     says: "{object} ({name}) is {given}, but {standard} specifies {right}",
-    help: "write `{ObjectType={right}}`",
+    help: "write `{ObjectType={right}}`{fix}",
+    fixability: Fixability::Unsafe,
     check: Check::Object(check),
     ..Rule::of("W0630")
 };
@@ -36,7 +39,14 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let finding = finding
             .fact("right", standard.code())
             .fact("given", *object.code);
-        findings.push(finding.fact("standard", standard.source()));
+        let finding = finding.fact("standard", standard.source());
+        // Another code than that of a list needs other sections.
+        findings.push(if standard.is_like(*object.code) {
+            let right = format!("0x{:X}", standard.code().code());
+            finding.fix(Fix::unsafe_fix().replace(object.code.span, right))
+        } else {
+            finding
+        });
     }
 }
 

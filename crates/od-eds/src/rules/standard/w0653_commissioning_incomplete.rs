@@ -1,7 +1,9 @@
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
+use crate::fix::Fix;
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 use crate::subject::start_number;
@@ -14,6 +16,7 @@ pub(crate) static W0653: Rule = Rule {
     says: "[{section}] lacks `{field}`",
     help: "add `{field}=` and its value",
     also: &[SERIAL, NO_LSS, MANAGER],
+    fixability: Fixability::Unsafe,
     check: Check::Device(check),
     ..Rule::of("W0653")
 };
@@ -21,7 +24,7 @@ pub(crate) static W0653: Rule = Rule {
 /// Sentence for a serial number that is not the one of 1018h.
 const SERIAL: Form = Form {
     says: "LSS_SerialNumber is {given}, but 1018h:04 is {right}",
-    help: "write `LSS_SerialNumber={right}`, or correct 1018h:04",
+    help: "write `LSS_SerialNumber={right}`{fix}, or correct 1018h:04",
 };
 
 /// Sentence for a serial number of a device without LSS.
@@ -33,7 +36,7 @@ const NO_LSS: Form = Form {
 /// Sentence for a manager that is not an NMT master.
 const MANAGER: Form = Form {
     says: "CANopenManager is 1, but 1F80h (NMT startup) is missing: the device is not an NMT master",
-    help: "write `CANopenManager=0`, or add 1F80h",
+    help: "write `CANopenManager=0`{fix}, or add 1F80h",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
@@ -59,7 +62,9 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     {
         let finding = W0653.at(given.span).about(address).form(&SERIAL);
         let finding = finding.fact("given", serial).fact("right", own.value);
-        findings.push(finding.related(own.span, "serial number set here"));
+        let fix = Fix::unsafe_fix().replace(given.span, own.value.to_string());
+        let finding = finding.related(own.span, "serial number set here");
+        findings.push(finding.fix(fix));
     }
     let info = description.section("DeviceInfo");
     let lss = info.and_then(|info| info.get("LSS_Supported"));
@@ -74,6 +79,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         && number(given) == Some(1)
         && !description.objects.contains_key(&0x1F80)
     {
-        findings.push(W0653.at(given.span).form(&MANAGER));
+        let fix = Fix::unsafe_fix().replace(given.span, "0");
+        findings.push(W0653.at(given.span).form(&MANAGER).fix(fix));
     }
 }

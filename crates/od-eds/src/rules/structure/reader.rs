@@ -17,12 +17,16 @@ pub(crate) static E0301: Rule = Rule {
     why: "A tool cannot tell a VAR from an ARRAY or a RECORD. odkit assumes a RECORD if sub-objects exist, otherwise a VAR.",
     source: "CiA 301, object codes",
     says: "{ObjectType} `{given}` is not an object code",
-    help: "write `{ObjectType=0x7}` (VAR), `{ObjectType=0x8}` (ARRAY) or `{ObjectType=0x9}` (RECORD)",
+    fixability: Fixability::Unsafe,
+    help: "write `{ObjectType={right}}`{fix}, or another one of `0x7` (VAR), `0x8` (ARRAY) and `0x9` (RECORD)",
     ..Rule::of("E0301")
 };
 
-pub(crate) fn e0301_object_code_unknown(given: &Text<'_>) -> Finding {
-    E0301.given(given).key(Key::ObjectType)
+/// The finding about such an ObjectType, with the code of the standard, or the one that fits the sub-objects.
+pub(crate) fn e0301_object_code_unknown(given: &Text<'_>, right: ObjectCode) -> Finding {
+    let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:X}", right.code()));
+    let finding = E0301.given(given).key(Key::ObjectType);
+    finding.fact("right", right).fix(fix)
 }
 
 pub(crate) static W0302: Rule = Rule {
@@ -124,12 +128,21 @@ pub(crate) static W0313: Rule = Rule {
     why: "A tool creates the wrong number of sub-objects. CompactSubObj counts them without sub-index 0; odkit assumes 254 for a larger number.",
     source: "CiA 306-1, CompactSubObj",
     says: "{CompactSubObj} `{given}` is not a number from 1 to 254",
-    help: "write the number of sub-objects without sub-index 0",
+    fixability: Fixability::Unsafe,
+    help: "write {right}{fix}",
     ..Rule::of("W0313")
 };
 
-pub(crate) fn w0313_compact_not_valid(given: &Text<'_>) -> Finding {
-    W0313.given(given).key(Key::CompactSubObj)
+/// The finding about a CompactSubObj that is not valid, with the number that odkit assumes.
+pub(crate) fn w0313_compact_not_valid(given: &Text<'_>, most: Option<u8>) -> Finding {
+    let finding = W0313.given(given).key(Key::CompactSubObj);
+    match most {
+        Some(most) => {
+            let fix = Fix::unsafe_fix().replace(given.span, most.to_string());
+            finding.fact("right", format!("`{most}`")).fix(fix)
+        }
+        None => finding.fact("right", "the number of sub-objects without sub-index 0"),
+    }
 }
 
 pub(crate) static W0314: Rule = Rule {

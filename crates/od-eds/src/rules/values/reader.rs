@@ -3,11 +3,12 @@
 
 use alloc::format;
 use alloc::string::String;
-use od_model::DataType;
+use od_model::{Access, DataType};
 
 use crate::fact::Key;
 use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
 use crate::fix::Fix;
+use crate::scan::forms::nearest;
 use crate::scan::section::Text;
 use crate::span::{Span, Spanned};
 
@@ -16,13 +17,22 @@ pub(crate) static E0402: Rule = Rule {
     why: "DataType is the index of a data type of CiA 301. odkit leaves the value out of the dictionary.",
     source: "CiA 301, data types",
     says: "{DataType} `{given}` is not a data type",
-    help: "write `{DataType={right}}` ({right}), or another type",
+    fixability: Fixability::Unsafe,
+    help: "write `{DataType={right}}` ({right}){fix}, or another type",
     ..Rule::of("E0402")
 };
 
-pub(crate) fn e0402_data_type_unknown(given: &Text<'_>) -> Finding {
+/// The finding about such a DataType, with the type of the standard.
+pub(crate) fn e0402_data_type_unknown(given: &Text<'_>, standard: Option<DataType>) -> Finding {
     let finding = E0402.given(given).key(Key::DataType);
-    finding.fact("right", DataType::Unsigned32)
+    let finding = finding.fact("right", standard.unwrap_or(DataType::Unsigned32));
+    match standard {
+        Some(right) => {
+            let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:04X}", right.code()));
+            finding.fix(fix)
+        }
+        None => finding,
+    }
 }
 
 pub(crate) static W0404: Rule = Rule {
@@ -48,12 +58,26 @@ pub(crate) static E0405: Rule = Rule {
     why: "AccessType gives what a master can read and write. odkit assumes `ro`.",
     source: "CiA 306-1, object sections",
     says: "`{given}` is not a valid {AccessType}",
-    help: "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const` (odkit assumes `ro`)",
+    fixability: Fixability::Unsafe,
+    help: "write {right}{fix} (odkit assumes `ro`)",
     ..Rule::of("E0405")
 };
 
-pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>) -> Finding {
-    E0405.given(given).key(Key::AccessType)
+/// The finding about such an AccessType, with the access of the standard, or the only one that differs in one letter.
+pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>, standard: Option<Access>) -> Finding {
+    let finding = E0405.given(given).key(Key::AccessType);
+    let is_near = |access: &Access| nearest(given, [access.name()].into_iter(), 1).is_some();
+    let mut near = Access::ALL.into_iter().filter(is_near);
+    let only = near.next().filter(|_| near.next().is_none());
+    match only.or(standard) {
+        Some(meant) => {
+            let fix = Fix::unsafe_fix().replace(given.span, meant.name());
+            finding
+                .fact("right", format!("`{}`", meant.name()))
+                .fix(fix)
+        }
+        None => finding.fact("right", "`ro`, `wo`, `rw`, `rwr`, `rww` or `const`"),
+    }
 }
 
 pub(crate) static W0406: Rule = Rule {
@@ -106,7 +130,8 @@ pub(crate) static I0425: Rule = Rule {
     why: "Sub-index 1 of the object with that index gives the basic type. odkit uses this type and its limits; most EDS parsers do not know such types.",
     source: "CanFestival, object dictionary editor",
     says: "`{given}` is a data type that the file defines",
-    help: "write `{DataType={right}}`",
+    fixability: Fixability::Unsafe,
+    help: "write `{DataType={right}}`{fix}",
     ..Rule::of("I0425")
 };
 
@@ -116,7 +141,9 @@ pub(crate) fn i0425_own_data_type(given: &Text<'_>, stands_for: &Text<'_>) -> Fi
         .given(given)
         .key(Key::DataType)
         .fact("right", &*stands_for.value);
-    finding.related(stands_for.span, "basic type defined here")
+    let fix = Fix::unsafe_fix().replace(given.span, &*stands_for.value);
+    let finding = finding.related(stands_for.span, "basic type defined here");
+    finding.fix(fix)
 }
 
 pub(crate) static W0426: Rule = Rule {

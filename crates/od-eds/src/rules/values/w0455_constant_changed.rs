@@ -1,6 +1,7 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule};
+use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Access;
 
@@ -9,7 +10,8 @@ pub(crate) static W0455: Rule = Rule {
     why: "The device refuses a download of the value, or a master that does not write constants works with a value that the device does not have.",
     source: "CiA 306-1, AccessType and ParameterValue",
     says: "the value of this `const` object differs from its {DefaultValue}",
-    help: "remove {ParameterValue}, or write the {AccessType} that the device has",
+    help: "remove {ParameterValue}{fix}, or write the {AccessType} that the device has",
+    fixability: Fixability::Unsafe,
     check: Check::Entry(check),
     ..Rule::of("W0455")
 };
@@ -21,6 +23,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && given.value != default.value
     {
         let finding = W0455.on(entry, given.span);
-        findings.push(finding.related(default.span, "its constant value"));
+        let finding = finding.related(default.span, "its constant value");
+        findings.push(finding.fix(Fix::unsafe_fix().remove_line(given.span)));
     }
 }
