@@ -22,6 +22,23 @@ fn lines(head: &str, count: usize, line: impl Fn(usize) -> String) -> String {
 const VAR: &str = "[2000]\nParameterName=a\nDataType=7\nAccessType=rw\n";
 
 #[test]
+fn tools_do_not_read_a_file_that_is_too_large() {
+    let tools = od_eds::tools::TOOLS;
+    for (text, is_compared) in [
+        (lines(VAR, 49_000, |n| format!("[Own{n}]")), true),
+        (lines(VAR, 51_000, |n| format!("[Own{n}]")), false),
+        (lines(VAR, 201_000, |_| ";".into()), false),
+        (format!("{VAR};{}", "a".repeat(2 << 20)), false),
+    ] {
+        let document = Document::new(text);
+        assert_eq!(od_eds::tools::is_compared(&document), is_compared);
+        let description = document.parse().description;
+        let found = od_eds::tools::check(&document, &description, tools);
+        assert_eq!(!found.is_empty(), is_compared);
+    }
+}
+
+#[test]
 fn findings_of_one_rule_are_counted_and_not_stored() {
     for (head, line, code) in [
         ("", "junk", "W0101"),

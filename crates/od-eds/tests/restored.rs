@@ -39,12 +39,6 @@ const OF_MODULE: &[(&str, &str, &str, &str)] = &[
         "DefaultValue=$NODEID+0x2000",
     ),
     (
-        "E0650",
-        "1016sub2",
-        "DefaultValue=0",
-        "DefaultValue=0x000500FA",
-    ),
-    (
         "W0651",
         "1016sub2",
         "DefaultValue=0",
@@ -86,7 +80,6 @@ const OF_MODULE: &[(&str, &str, &str, &str)] = &[
         "DynamicChannelsSupported=0",
         "DynamicChannelsSupported=3",
     ),
-    ("W0253", "DummyUsage", "Dummy0006=1", "Dummy006=1"),
 ];
 
 /// The module with a line of a section replaced.

@@ -1,7 +1,7 @@
 //! The result of a check, from which every report is made.
 
 use od_eds::fix::Held;
-use od_eds::tools::Tool;
+use od_eds::tools::{Tool, is_compared, verdict};
 use od_eds::{Finding, Severity, Span};
 use serde::Serialize;
 
@@ -51,6 +51,15 @@ impl Checked {
     /// The files of the findings: base and overlay, each with its own findings.
     pub(super) fn parts(&self) -> Vec<Part<'_>> {
         self.file.parts(self.findings.clone())
+    }
+
+    /// The verdict of one tool in words.
+    pub(super) fn verdict(&self, tool: &Tool) -> &'static str {
+        if is_compared(self.file.document()) {
+            verdict(&self.of_tool(tool)).name()
+        } else {
+            "not compared, the file is too large"
+        }
     }
 
     /// The findings of one tool.

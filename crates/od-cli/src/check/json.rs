@@ -1,7 +1,6 @@
 //! The report as one JSON object; `version` increases with each incompatible change.
 
 use od_eds::fix::{self, Applicability, TextEdit};
-use od_eds::tools::verdict;
 use od_eds::{Eds, Finding, Label, Offsets, Severity, Span, say};
 use serde::Serialize;
 
@@ -114,7 +113,7 @@ fn outcomes(checked: &Checked, is_first: bool) -> Vec<Outcome> {
         name: tool.name,
         version: tool.version,
         tried: tool.tried,
-        verdict: verdict(&checked.of_tool(tool)).name(),
+        verdict: checked.verdict(tool),
     });
     outcomes.collect()
 }

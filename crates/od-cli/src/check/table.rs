@@ -1,7 +1,7 @@
 //! `--for all`: a line for each tool.
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use od_eds::tools::{TOOLS, Tool, Verdict, tool, verdict};
+use od_eds::tools::{TOOLS, Tool, Verdict, tool};
 use od_eds::{Eds, Finding, say};
 
 use super::checked::Checked;
@@ -48,9 +48,9 @@ pub(super) fn of(checked: &Checked) -> String {
                 "(not tried)"
             }
         );
-        let verdict = match verdict(&findings) {
-            Verdict::Accepts if !tool.tried => "no known fault",
-            verdict => verdict.name(),
+        let verdict = match checked.verdict(tool) {
+            verdict if verdict == Verdict::Accepts.name() && !tool.tried => "no known fault",
+            verdict => verdict,
         };
         rows.push((name, verdict.to_owned(), first(&findings, tool)));
     }

@@ -178,8 +178,16 @@ impl<'a> Section<'a> {
             numbers.map(move |number| Setting::Pdo(key, number))
         });
         let all = KEYS.into_iter().map(Setting::Key).chain(pdos);
-        all.filter_map(|setting| Some((setting, self.place_of(setting)?.span)))
-            .collect()
+        // Nodes contradict each other by the CAN-ID of a PDO.
+        let can_id = |setting| match setting {
+            Setting::Pdo(key, number) => self.pdo_of(key, number)?.1.get("cob_id"),
+            _ => None,
+        };
+        all.filter_map(|setting| {
+            let place = can_id(setting).or_else(|| self.place_of(setting))?;
+            Some((setting, place.span))
+        })
+        .collect()
     }
 
     /// The findings about objects in the mappings of the PDOs that the device cannot map.

@@ -475,6 +475,10 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
             "[Topology]\nNode3DCFName=none.dcf\n",
             "line 2: node 3: none.dcf: ",
         ),
+        (
+            "[Topology]\nNodes=0\n[Topologyy]\nNodes=0\n",
+            "line 3: `Topologyy` is not a name of a node list; write `Topology`",
+        ),
         ("[FileInfo]\n", "the section [Topology] is missing"),
     ] {
         fs::write(&list, text).expect("a file");

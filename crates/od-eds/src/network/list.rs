@@ -15,7 +15,7 @@ use crate::rules::network::{
     w1207_node_count, w1207_node_id_differs, w1207_node_id_not_valid, w1207_present_not_valid,
     w1207_same_name,
 };
-use crate::scan::forms::near;
+use crate::scan::forms::{near, nearest};
 use crate::scan::lines::{Fault, scan};
 use crate::scan::number::number;
 use crate::scan::section::{Text, TextSection};
@@ -63,6 +63,9 @@ pub fn node_lists(
     if let Some(many) = many {
         return Err(many);
     }
+    if let Some(section) = sections.iter().find(|section| is_misspelled(&section.name)) {
+        return Err(misspelled(section.header.line, &section.name, "Topology"));
+    }
     let is_network = |section: &&TextSection<'_>| {
         let start = section.name.get(.."Topology".len());
         start.is_some_and(|start| start.eq_ignore_ascii_case("Topology"))
@@ -82,15 +85,17 @@ pub fn node_lists(
         })
         .collect::<Result<_, String>>()?;
     if networks.is_empty() {
-        let mut others = sections.iter();
-        let near_one = others.find(|other| near(&other.name, ["Topology"].into_iter()).is_some());
-        Err(match near_one {
-            Some(other) => misspelled(other.header.line, &other.name, "Topology"),
-            None => "the section [Topology] is missing".into(),
-        })
+        Err("the section [Topology] is missing".into())
     } else {
         Ok(networks)
     }
+}
+
+/// Returns whether this is `Topology` with wrong letters. Several networks have names with something behind it.
+fn is_misspelled(section: &str) -> bool {
+    let word = section.trim_end_matches(|c: char| !c.is_alphabetic());
+    let most = if word.len() > "Topology".len() { 1 } else { 2 };
+    nearest(word, ["Topology"].into_iter(), most).is_some()
 }
 
 fn topology(

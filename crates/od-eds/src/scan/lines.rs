@@ -20,6 +20,17 @@ const SECTIONS: usize = 50_000;
 /// Maximum number of headers and keys of a text.
 const LINES: usize = 200_000;
 
+/// Returns whether a text has more lines or sections, or a longer line, than odkit reads.
+#[cfg(feature = "tools")]
+pub(crate) fn is_too_large(text: &str) -> bool {
+    let (mut lines, mut sections) = (0, 0);
+    text.lines().any(|line| {
+        lines += 1;
+        sections += usize::from(line.trim_start().starts_with('['));
+        lines > LINES || sections > SECTIONS || line.len() > LONGEST
+    })
+}
+
 /// Scanning a text, line by line.
 struct Scan<'a, 'f> {
     /// Sections in file order, with duplicates.

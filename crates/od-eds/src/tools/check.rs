@@ -9,6 +9,7 @@ use crate::allow::Allows;
 use crate::description::Description;
 use crate::document::{Document, is_xml};
 use crate::finding::{Finding, Place, Severity, sort};
+use crate::scan::lines::is_too_large;
 use crate::tools::compare::Compare;
 use crate::tools::shared;
 use crate::tools::tool::{Input, Reading, Tool};
@@ -74,16 +75,23 @@ pub fn reading(document: &Document, tool: &Tool) -> Reading {
     reading
 }
 
+/// Returns whether odkit reads a file as the tools do. A file with so many lines or sections that odkit does not read all of
+/// it describes no device, and the tools take minutes for it.
+pub fn is_compared(document: &Document) -> bool {
+    !is_too_large(document.text())
+}
+
 /// Returns findings about content that these tools reject, drop or read differently, in file order, without
 /// findings that the text allows. A fix is right for all of the tools.
 ///
-/// `description` is the description that odkit read.
+/// `description` is the description that odkit read. A file that [is not compared](is_compared) has no findings.
 pub fn check(
     document: &Document,
     description: &Description,
     tools: &[&'static Tool],
 ) -> Vec<Finding> {
     let mut found = Vec::new();
+    let tools = if is_compared(document) { tools } else { &[] };
     for tool in tools {
         let reading = reading(document, tool);
         let mut own = Vec::new();

@@ -29,7 +29,7 @@ mod twincat;
 
 use crate::finding::Rule;
 
-pub use check::{Verdict, check, reading, verdict};
+pub use check::{Verdict, check, is_compared, reading, verdict};
 pub use tool::{Read, ReadEntry, Reading, Tool};
 
 /// All tools; those that were run come first.

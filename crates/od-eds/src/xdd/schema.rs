@@ -158,7 +158,7 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
             own("dynamicChannels", Any),
             own("selfStartingDevice", Flag),
             own("SDORequestingDevice", Flag),
-            own("granularity", Any),
+            required("granularity", Any),
             own("nrOfRxPDO", Any),
             own("nrOfTxPDO", Any),
             own("ngSlave", Flag),
@@ -473,10 +473,14 @@ pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
         }
         for given in node.attributes() {
             let name = given.name();
-            let is_known = |own: &Attribute| own.name.eq_ignore_ascii_case(name);
-            if !attributes.iter().any(is_known)
-                && let Some(meant) = near(name, attributes.iter().map(|own| own.name))
-            {
+            let names = attributes.iter().map(|own| own.name);
+            let mut capitals = names.clone().filter(|own| own.eq_ignore_ascii_case(name));
+            // XML distinguishes upper and lower case.
+            let meant = match capitals.next() {
+                Some(own) => Some(own).filter(|own| *own != name),
+                None => near(name, names),
+            };
+            if let Some(meant) = meant {
                 let at = reader.name(&given);
                 reader.log.push(w0318_attribute_misspelled(at, name, meant));
             }
@@ -527,12 +531,23 @@ pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
     }
 }
 
-/// Reports the text of an element that is not one of its words, or is not the class of the profile beside it.
+/// Reports the text of an element that is not a number or not one of its words, or is not the class of the profile beside it.
 fn text(node: Node<'_, '_>, name: &str, reader: &mut Reader<'_>) {
-    let Some((_, words)) = TEXTS.iter().find(|(known, _)| *known == name) else {
+    let is_number = matches!(name, "ISO15745Part" | "ISO15745Edition");
+    let words = TEXTS.iter().find(|(known, _)| *known == name);
+    if !is_number && words.is_none() {
+        return;
+    }
+    let Some(given) = reader.text(node).filter(|given| !given.is_empty()) else {
         return;
     };
-    let Some(given) = reader.text(node).filter(|given| !given.is_empty()) else {
+    let Some((_, words)) = words else {
+        if !matches!(given.parse::<u32>(), Ok(1..)) {
+            let wanted = "a number, 1 or more".into();
+            reader
+                .log
+                .push(w0123_attribute_not_valid(&given, name, wanted));
+        }
         return;
     };
     let profile = node.ancestors().nth(2);

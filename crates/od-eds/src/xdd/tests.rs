@@ -286,6 +286,29 @@ fn the_class_of_a_profile_is_that_of_its_body() {
 }
 
 #[test]
+fn names_are_written_in_the_capitals_of_the_schema_and_parts_are_numbers() {
+    let unit = |name: &str| {
+        format!(
+            "<ISO15745ProfileContainer><parameter uniqueID=\"a\"><unit {name}=\"#mbar\"/></parameter>\
+             </ISO15745ProfileContainer>"
+        )
+    };
+    assert!(!codes(&parse(&unit("unitURI"))).contains(&"W0318"));
+    assert!(codes(&parse(&unit("unitUri"))).contains(&"W0318"));
+    for (text, is_right) in [
+        ("<ISO15745Part>1</ISO15745Part>", true),
+        ("<ISO15745Part>one</ISO15745Part>", false),
+        ("<ISO15745Edition>0</ISO15745Edition>", false),
+        ("<CANopenGeneralFeatures granularity=\"8\"/>", true),
+        ("<CANopenGeneralFeatures/>", false),
+    ] {
+        let text = format!("<ISO15745ProfileContainer>{text}</ISO15745ProfileContainer>");
+        let found = codes(&parse(&text));
+        assert_eq!(!found.contains(&"W0123"), is_right, "{text}");
+    }
+}
+
+#[test]
 fn a_finding_has_the_terms_of_the_schema() {
     let text = file(
         "",

@@ -10,7 +10,7 @@ use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::rules::values::shared::values;
 use crate::span::Spanned;
-use crate::subject::Entry;
+use crate::subject::{Entry, start_value};
 
 pub(crate) static E0414: Rule = Rule {
     title: "configured value is outside its limits",
@@ -66,11 +66,21 @@ fn check_order(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         let swap = Fix::unsafe_fix()
             .replace(low.span, shown(high))
             .replace(high.span, shown(low));
-        let finding = E0415.on(entry, low.span).key(Key::LowLimit);
+        // The limit that the value of the object contradicts alone.
+        let value = start_value(entry);
+        let is_beyond =
+            |limit, wrong| value.is_some_and(|value| order(value, limit) == Some(wrong));
+        let is_high = is_beyond(high, Ordering::Greater) && !is_beyond(low, Ordering::Less);
+        let (key, own, other, label) = if is_high {
+            (Key::HighLimit, high, low, "{LowLimit} set here")
+        } else {
+            (Key::LowLimit, low, high, "{HighLimit} set here")
+        };
+        let finding = E0415.on(entry, own.span).key(key);
         let finding = finding
             .fact("low", low.value.clone())
             .fact("high", high.value.clone());
-        findings.push(finding.related(high.span, "{HighLimit} set here").fix(swap));
+        findings.push(finding.related(other.span, label).fix(swap));
     }
 }
 
