@@ -214,7 +214,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
         "options:\n  retry_facto: 2\nmaster:\n  node_id: 1\n  baudrate: 300\n  heartbeat_produce: 500\n\
          defaults:\n  dcf: {eds}\n  hartbeat_producer: 100\n\
          nodes:\n  left:\n    node_id: 5\n    tpdo:\n      2: {{cob_id: 0x5F0, transmission: 255}}\n\
-         \n  right:\n    node_id: 6\n"
+         \n  right:\n    node_id: 6\n    Boot: true\n"
     );
     let (run, _) = network("settings", "bus.yml", &text);
     assert_eq!(run.code, 1, "{}", run.err);
@@ -233,6 +233,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
             14,
             "E1210]: TPDO 2 of left has CAN-ID 5F0h, which CiA 301 reserves for the default SDO (server to client)",
         ),
+        (18, "W1208]: right: `Boot` is not a key of dcfgen"),
     ] {
         let found = run
             .err
@@ -241,7 +242,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
         let place = run.err[found..].lines().nth(1).unwrap_or_default();
         assert!(place.contains(&format!("bus.yml:{line}:")), "{}", run.err);
     }
-    assert_eq!(run.err.matches("[W1208]").count(), 3, "{}", run.err);
+    assert_eq!(run.err.matches("[W1208]").count(), 4, "{}", run.err);
     let (run, _) = network("master-id", "bus.yml", "master:\n  node_id: 128\n");
     let said = "line 2: master: node_id is not valid: write 1 to 127";
     assert!(run.err.contains(said), "{}", run.err);

@@ -25,6 +25,12 @@ use od_model::Address;
 pub(crate) fn check(placed: &TextSection<'_>, log: &mut Log) {
     let name = &placed.name;
     if name.is_empty() || forms::is_of_objects(name) {
+        let is_links = name.to_ascii_lowercase().ends_with("objectlinks");
+        for (key, value) in placed.pairs.iter().filter(|_| is_links) {
+            if let Some(meant) = forms::near(key, ["ObjectLinks"].into_iter()) {
+                log.push(w0318_key_misspelled(key, value, meant));
+            }
+        }
         return;
     }
     let Some((_, known)) = forms::section(name) else {

@@ -287,8 +287,11 @@ pub(crate) static W1208: Rule = Rule {
 
 /// Returns the finding about a key of a node at `span`, if it looks like one that dcfgen knows.
 pub fn misspelled_key(node: &str, given: &str, known: &[&str], span: Span) -> Option<Finding> {
-    let is_known = known.contains(&given);
-    let right = near(given, known.iter().copied()).filter(|_| !is_known)?;
+    let mut capitals = known.iter().copied();
+    let right = match capitals.find(|own| own.eq_ignore_ascii_case(given)) {
+        Some(own) => Some(own).filter(|_| !known.contains(&given)),
+        None => near(given, known.iter().copied()),
+    }?;
     let finding = W1208.at(span).fact("node", node).fact("given", given);
     Some(finding.fact("right", right))
 }

@@ -30,12 +30,20 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     ] {
         let address = Address::new(0x1018, sub);
         let object = start_number(description, address);
+        let default = description
+            .entry(address)
+            .and_then(|entry| entry.default.as_ref());
+        let default = default.and_then(|default| default.integer(0));
         let (Some(given), Some(object)) = (info.get(field), object) else {
             continue;
         };
         // 0 means that the value is not known; W0609 reports a value that is not a number of 32 bits.
         let known = number(given).and_then(|number| u32::try_from(number).ok());
-        let differs = |given: &u32| *given != 0 && u64::from(*given) != object.value;
+        // A DCF with the identity of another device has a finding of its own.
+        let differs = |given: &u32| {
+            let is_default = default == Some(i128::from(*given));
+            *given != 0 && u64::from(*given) != object.value && !is_default
+        };
         let Some(number) = known.filter(|given| object.value != 0 && differs(given)) else {
             continue;
         };
