@@ -40,16 +40,16 @@ pub fn parse_line(line: &str) -> Result<LogLine, Problem> {
         at,
         interface,
         frame,
+        word: (column, word),
         ..
     } = logged(line)?;
-    let (column, word) = frame.column;
-    match frame.what {
-        Some(What::Frame(frame)) => Ok(LogLine {
+    match frame {
+        Some(frame) => Ok(LogLine {
             at,
             interface: interface.map(str::to_owned),
             frame,
         }),
-        Some(What::Error(_)) | None => Err(Problem::at(
+        None => Err(Problem::at(
             column,
             format!("`{word}` is an error frame"),
             "remove the line; an error frame cannot be sent",
@@ -63,14 +63,23 @@ pub(super) struct Logged<'t> {
     interface: Option<&'t str>,
     /// Sent by the computer that wrote the log.
     pub(super) sent: bool,
-    pub(super) frame: Placed<'t>,
+    /// `None`: an error message of SocketCAN.
+    frame: Option<Frame>,
+    /// The word of the frame or of its CAN-ID, with its column, and the text after it.
+    word: (usize, &'t str),
+    rest: Cursor<'t>,
 }
 
-/// Event on the bus, and the word that begins it.
-pub(super) struct Placed<'t> {
-    /// `None`: an event of the adapter that is no error.
-    pub(super) what: Option<What>,
-    column: (usize, &'t str),
+impl Logged<'_> {
+    /// The frame, or the error; an error message of SocketCAN that is no error has neither.
+    pub(super) fn what(&self) -> Option<What> {
+        if let Some(frame) = self.frame {
+            return Some(What::Frame(frame));
+        }
+        let (_, word) = self.word;
+        let error = BusError::of_socketcan(error_id(word)?, error_data(word, self.rest));
+        error.map(What::Error)
+    }
 }
 
 /// Returns whether a line is one of a log: a time stamp, an interface and a frame.
@@ -102,28 +111,25 @@ pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
         at,
         interface: None,
         sent: false,
-        frame: Placed {
-            what: None,
-            column: (column, word),
-        },
+        frame: None,
+        word: (column, word),
+        rest,
     };
     if !word.contains('#') {
         logged.interface = Some(word);
         logged.sent = direction(&mut rest);
-        logged.frame.column = next_word(&mut rest, FRAME)?;
+        logged.word = next_word(&mut rest, FRAME)?;
     }
-    let (column, word) = logged.frame.column;
-    if let Some(id) = error_id(word) {
-        let error = BusError::of_socketcan(id, error_data(word, rest));
-        logged.frame.what = error.map(What::Error);
+    logged.rest = rest;
+    let (column, word) = logged.word;
+    if error_id(word).is_some() {
         return Ok(logged);
     }
-    let frame = if word.contains('#') {
+    logged.frame = Some(if word.contains('#') {
         parse_frame(word).map_err(|error| error.shifted(column - 1))?
     } else {
         screen(column, word, &mut rest)?
-    };
-    logged.frame.what = Some(What::Frame(frame));
+    });
     // On a screen the length says where the data ends.
     let is_over = !word.contains('#') && screen_byte(1, rest.peek()).is_err();
     logged.sent |= !is_over && end(rest)?;

@@ -231,7 +231,7 @@ fn line(text: &str, lacks_times: bool) -> Result<Entry, String> {
         None if lacks_times => Instant::ZERO,
         at => at.ok_or(missing)?,
     };
-    Ok(match logged.frame.what {
+    Ok(match logged.what() {
         Some(what) => Entry::Record(Record {
             at,
             sent: logged.sent,
