@@ -216,6 +216,8 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
     (
         "deviceCommissioning",
         &[
+            // odkit writes the first one and reads both. No public file at hand has the element.
+            own("nodeID", Any),
             own("NodeID", Any),
             own("nodeName", Any),
             own("actualBaudRate", Any),
@@ -474,13 +476,11 @@ pub(super) fn check(root: Node<'_, '_>, reader: &mut Reader<'_>) {
         for given in node.attributes() {
             let name = given.name();
             let names = attributes.iter().map(|own| own.name);
-            let mut capitals = names.clone().filter(|own| own.eq_ignore_ascii_case(name));
             // XML distinguishes upper and lower case.
-            let meant = match capitals.next() {
-                Some(own) => Some(own).filter(|own| *own != name),
-                None => near(name, names),
-            };
-            if let Some(meant) = meant {
+            let capitals = || names.clone().find(|own| own.eq_ignore_ascii_case(name));
+            if names.clone().all(|own| own != name)
+                && let Some(meant) = capitals().or_else(|| near(name, names.clone()))
+            {
                 let at = reader.name(&given);
                 reader.log.push(w0318_attribute_misspelled(at, name, meant));
             }

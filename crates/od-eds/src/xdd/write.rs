@@ -207,11 +207,13 @@ fn network(out: &mut Xml, description: &Description) {
         "1" => "true".into(),
         _ => "false".into(),
     };
+    // The schema requires it. Most devices map whole bytes.
+    let granularity = Some(info("Granularity")).filter(|given| !given.is_empty());
     out.element("NetworkManagement", &[], |out| {
         out.empty(
             "CANopenGeneralFeatures",
             &vec_of([
-                ("granularity", info("Granularity")),
+                ("granularity", granularity.unwrap_or("8".into())),
                 ("nrOfRxPDO", info("NrOfRXPDO")),
                 ("nrOfTxPDO", info("NrOfTXPDO")),
                 ("bootUpSlave", flag("SimpleBootUpSlave")),
