@@ -12,7 +12,7 @@ const OF_MODULE: &[(&str, &str, &str, &str)] = &[
     ("E0402", "1015", "DataType=0x0006", "DataType=0x0600"),
     ("E0402", "1018sub3", "DataType=0x0007", "DataType=0x0077"),
     ("E0405", "1018sub3", "AccessType=ro", "AccessType=any"),
-    ("E0405", "2001sub0", "AccessType=const", "AccessType=cosnt"),
+    ("E0405", "2001sub0", "AccessType=const", "AccessType=cons"),
     (
         "W0520",
         "1014",

@@ -57,7 +57,7 @@ pub(super) fn command(dut: &mut Dut<'_>, index: u16, sub: u8, signature: &[u8]) 
 pub(super) fn wrong_signature(dut: &mut Dut<'_>, index: u16) -> Checked {
     // A node that takes one of the others for a restore would lose its values.
     let wrong: &[&[u8]] = match index {
-        0x1010 => &[b"evas", b"SAVE", b"load", b"sav", b"sa"],
+        0x1010 => &[b"evas", b"SAVE", b"load", &b"save"[..3], b"sa"],
         _ => &[b"evas", b"loa", b"lo"],
     };
     refuses_signatures(dut, index, wrong)
