@@ -1,8 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::Finding;
-use crate::finding::{Check, Fixability, Form, Rule, Severity};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static W0521: Rule = Rule {

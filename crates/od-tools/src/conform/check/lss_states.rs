@@ -25,11 +25,18 @@ fn commands(dut: &Dut<'_>) -> Vec<Request> {
     let inquiries = Part::ALL.into_iter().map(|part| Request::Inquire { part });
     let others = [
         Request::InquireNodeId,
-        Request::ConfigureNodeId { node_id },
         NO_TIMING,
         Request::ConfigureNodeId { node_id: 0 },
+        Request::ConfigureNodeId { node_id },
     ];
     inquiries.chain(others).collect()
+}
+
+/// Ends the configuration state. A node that has accepted node ID 0 gets its own one back before, so that it is not lost.
+fn leave(dut: &mut Dut<'_>) -> Checked {
+    let node_id = dut.node.raw();
+    ask(dut, Request::ConfigureNodeId { node_id })?;
+    waiting(dut)
 }
 
 type Answers = Vec<(Request, Option<[u8; 8]>)>;
@@ -58,7 +65,7 @@ fn wanted_text(answer: Option<[u8; 8]>) -> String {
 pub(super) fn other_states(dut: &mut Dut<'_>) -> Checked {
     let all = configured(dut)?;
     let in_stopped = responses(dut)?;
-    waiting(dut)?;
+    leave(dut)?;
     let mut any = false;
     for (command, state) in [(Command::EnterPreOperational, 0x7F), (Command::Start, 5)] {
         dut.nmt(command)?;
@@ -70,7 +77,7 @@ pub(super) fn other_states(dut: &mut Dut<'_>) -> Checked {
         }
         any = true;
         let here = responses(dut)?;
-        waiting(dut)?;
+        leave(dut)?;
         for ((request, wanted), (_, is)) in in_stopped.iter().zip(here) {
             let command = values::hex(&request.emit());
             let done = ensure(
@@ -123,7 +130,7 @@ pub(super) fn each_after_each(dut: &mut Dut<'_>) -> Checked {
         }
         Ok(())
     })();
-    waiting(dut)?;
+    leave(dut)?;
     done
 }
 
@@ -179,6 +186,6 @@ pub(super) fn other_frames(dut: &mut Dut<'_>) -> Checked {
     }
     let [a, b, c, d] = all[0].to_le_bytes();
     let done = answers(dut, VENDOR, &[0x5A, a, b, c, d]);
-    waiting(dut)?;
+    leave(dut)?;
     done
 }
