@@ -25,8 +25,7 @@ pub enum What {
     Error(BusError),
 }
 
-/// What an adapter reports about an error on the bus. Only logs of SocketCAN tell one from the other; in all others it is an
-/// error frame.
+/// An error that an adapter reports. Only a log of SocketCAN says which one it is; in any other log it is an error frame.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum BusError {
     /// An error frame.

@@ -280,6 +280,16 @@ impl Dut<'_> {
         }
     }
 
+    /// Tests that an object has the value that was written.
+    pub(crate) fn is_as_written(&mut self, address: Address, written: &[u8]) -> Checked {
+        let is = self.read(address)?;
+        ensure(
+            is == written,
+            format!("{} in {address}, as written", values::hex(written)),
+            format!("{} was read", values::hex(&is)),
+        )
+    }
+
     /// Returns the value of an object, and restores it after the case.
     pub(crate) fn keep(&mut self, address: Address) -> Checked<Vec<u8>> {
         let before = self.read(address)?;

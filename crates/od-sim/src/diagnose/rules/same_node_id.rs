@@ -66,7 +66,7 @@ fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
             let is_soon = extra.at.micros_since(exchange.end.at) <= SOON;
             is_soon && first.is_some() && head(extra) == first
         });
-        let is_flood = exchange.extra.len() >= unasked_responses::MOST;
+        let is_flood = exchange.extra.len() >= unasked_responses::FLOOD;
         if let Some(second) = second.filter(|_| is_done && !is_flood) {
             signs.extend([exchange.end, *second]);
         }

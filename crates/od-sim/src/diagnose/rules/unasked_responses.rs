@@ -14,13 +14,13 @@ pub(super) const RULE: Rule = Rule {
     check,
 };
 
-/// More responses to a request than a second node, or a late response, explains.
-pub(super) const MOST: usize = 3;
+/// A request with as many further responses is a flood. A second node, or a late response, is one further response.
+pub(super) const FLOOD: usize = 3;
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        let is_flood = |one: &&Exchange| one.extra.len() >= MOST;
+        let is_flood = |one: &&Exchange| one.extra.len() >= FLOOD;
         let floods: Vec<&Exchange> = node.exchanges.iter().filter(is_flood).collect();
         let (Some(first), Some(last)) = (floods.first(), floods.last()) else {
             continue;

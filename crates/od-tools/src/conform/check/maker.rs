@@ -83,12 +83,7 @@ pub(super) fn customer_data(dut: &mut Dut<'_>) -> Checked {
             written.push((*address, value));
         }
         for (address, value) in written {
-            let is = dut.read(address)?;
-            let done = ensure(
-                is == value,
-                format!("{} in {address}, as written", values::hex(&value)),
-                format!("{} was read", values::hex(&is)),
-            );
+            let done = dut.is_as_written(address, &value);
             dut.fault(done)?;
         }
     }

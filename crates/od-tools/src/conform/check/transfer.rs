@@ -649,12 +649,7 @@ pub(super) fn clients_valid(dut: &mut Dut<'_>) -> Checked {
             for (address, id) in ids {
                 let value = (id | flag).to_le_bytes();
                 dut.write(address, &value)?;
-                let is = dut.read(address)?;
-                let done = ensure(
-                    is == value,
-                    format!("{} in {address}, as written", values::hex(&value)),
-                    format!("{} was read", values::hex(&is)),
-                );
+                let done = dut.is_as_written(address, &value);
                 dut.fault(done)?;
             }
         }
@@ -663,12 +658,7 @@ pub(super) fn clients_valid(dut: &mut Dut<'_>) -> Checked {
             let before = dut.keep(server)?;
             let other = [if before == [2] { 3 } else { 2 }];
             dut.write(server, &other)?;
-            let is = dut.read(server)?;
-            let done = ensure(
-                is == other,
-                format!("{} in {server}, as written", values::hex(&other)),
-                format!("{} was read", values::hex(&is)),
-            );
+            let done = dut.is_as_written(server, &other);
             dut.fault(done)?;
         }
     }
