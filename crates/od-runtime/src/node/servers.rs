@@ -8,6 +8,7 @@ use crate::device::Device;
 use crate::objects::Objects;
 use crate::rooms::{Rooms, Slices};
 use crate::sdo::Server;
+use crate::services::may_have;
 
 /// Index of the second server.
 const FURTHER: u16 = 0x1201;
@@ -66,15 +67,15 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Restores the defaults of COB-IDs that were assigned dynamically (bit 30), also of saved
-    /// ones.
+    /// Restores the defaults of COB-IDs of SDO servers and clients that were assigned dynamically
+    /// (bit 30), also of saved ones.
     pub(super) fn forget_dynamic(objects: &mut Objects<'_, D>) {
-        if !D::SERVERS {
+        if !(D::SERVERS || const { may_have::<D>(0x1280, 0x12FF, None) }) {
             return;
         }
         for row in objects.store.dictionary().rows() {
             let address = row.address();
-            if matches!((address.index, address.sub), (0x1201..=0x127F, 1 | 2))
+            if matches!((address.index, address.sub), (0x1201..=0x12FF, 1 | 2))
                 && row.has_integer_default()
                 && objects.store.number_of(row) & 1 << 30 != 0
             {

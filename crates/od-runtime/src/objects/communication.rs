@@ -96,6 +96,14 @@ pub(super) fn check<D: Services>(
                 Ok(())
             }
         }
+        // The COB-IDs of a client have the same rules as those of a server (chapter 7.5.2.34).
+        (0x1280..=0x12FF, 1 | 2) => {
+            if const { may_have::<D>(0x1280, 0x12FF, None) } {
+                check_cob_id(true)
+            } else {
+                Ok(())
+            }
+        }
         (0x1400..=0x15FF, _) => match sub {
             1 if D::RPDOS => check_cob_id(true),
             2 => allow(!D::RPDOS || !TransmissionType::new(value as u8).is_reserved(true)),
@@ -189,7 +197,7 @@ fn check_cob_id(
 ) -> Result<(), AbortCode> {
     let (old, new) = (CobId::new(store.number_of(row) as u32), CobId::new(new));
     let valid = new.is_valid() || !has_valid_bit;
-    if !new.is_consistent() || (valid && new.is_restricted()) {
+    if !new.is_consistent() || (valid && is_restricted(row.address().index, new)) {
         return Err(AbortCode::ValueRange);
     }
     let same = (new.raw() ^ old.raw()) & 0x3FFF_FFFF == 0;
@@ -197,6 +205,19 @@ fn check_cob_id(
         return Err(AbortCode::ValueRange);
     }
     Ok(())
+}
+
+/// Returns whether CiA 301 restricts this CAN-ID for the service at `index`. An SDO client may have those of
+/// the default SDO of another node (chapter 7.5.2.34).
+fn is_restricted(index: u16, cob_id: CobId) -> bool {
+    let is_client = matches!(index, 0x1280..=0x12FF);
+    let is_sdo = || {
+        matches!(
+            cob_id.can_id().as_standard(),
+            Some(0x581..=0x5FF | 0x601..=0x67F)
+        )
+    };
+    cob_id.is_restricted() && !(is_client && is_sdo())
 }
 
 /// Returns whether the PDO of a communication parameter is valid (bit 31 of its COB-ID is 0).

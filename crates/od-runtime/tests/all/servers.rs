@@ -1,4 +1,4 @@
-//! SDO servers besides the default one (CiA 301, chapter 7.5.2.33).
+//! SDO servers besides the default one, and SDO clients (CiA 301, chapters 7.5.2.33 and 7.5.2.34).
 
 use crate::support::{Bench, Row, rows, unsigned};
 use od_model::{Access, Address, DataType};
@@ -143,6 +143,57 @@ fn dynamically_assigned_cob_ids_are_not_saved() {
     assert!(bench.send("690#4000200000000000").is_empty());
     assert_eq!(bench.ask("601#4003120100000000"), "581#4303120181060080");
     assert_eq!(bench.ask("601#4003120200000000"), "581#43031202D0060000");
+}
+
+/// A node with the object of an SDO client, which is not valid.
+fn client() -> Bench {
+    let mut rows = rows();
+    for sub in [1, 2] {
+        let off = unsigned(0x8000_0000);
+        rows.push((0x1280, sub, DataType::Unsigned32, Access::Rw, false, off));
+    }
+    let mut bench = Bench::with(rows, NoApplication);
+    bench.power_on();
+    bench
+}
+
+#[test]
+fn the_cob_ids_of_a_client_follow_their_rules() {
+    let mut bench = client();
+    for (sub, value, expected) in [
+        (1, 0x602, ""),       // the default SDO of node 2
+        (2, 0x582, ""),       // with its response
+        (1, 0x603, RANGE),    // it is valid, and would change
+        (2, 0x583, RANGE),    // the other one, too
+        (1, 0x2602, RANGE),   // each bit from 0 to 29 counts
+        (1, 0x602, ""),       // it would not change
+        (1, 0x4000_0602, ""), // bit 30 may change
+        (1, 0x8000_0602, ""),
+        (1, 0x0000_0603, ""),
+        (1, 0x8000_0000, ""),
+        (1, 0x0, RANGE), // restricted
+        (1, 0x701, RANGE),
+        (1, 0x801, RANGE), // bits 11 to 28 belong to a 29-bit CAN-ID
+        (1, 0x640, ""),
+    ] {
+        assert_eq!(
+            write(&mut bench, 0x1280, sub, value),
+            expected,
+            "{sub}: {value:X}"
+        );
+    }
+    assert_eq!(bench.ask("601#4080120200000000"), "581#4380120282050000");
+}
+
+#[test]
+fn a_client_that_was_assigned_dynamically_is_not_saved() {
+    let mut bench = client();
+    assert_eq!(write(&mut bench, 0x1280, 1, 0x4000_0602), "");
+    assert_eq!(write(&mut bench, 0x1280, 2, 0x582), "");
+    assert_eq!(bench.ask("601#2310100173617665"), "581#6010100100000000");
+    assert_eq!(bench.power_cycle(), ["701#00"]);
+    assert_eq!(bench.ask("601#4080120100000000"), "581#4380120100000080");
+    assert_eq!(bench.ask("601#4080120200000000"), "581#4380120282050000");
 }
 
 #[test]
