@@ -247,6 +247,7 @@ impl Dut<'_> {
             segment[1..=part.len()].copy_from_slice(part);
             let answer = self.answer(segment)?;
             if let Some(code) = abort_of(&answer) {
+                names(&answer, address)?;
                 return Ok(Err(code));
             }
             let wanted = 0x20 | toggle;
@@ -370,6 +371,15 @@ pub(crate) fn reserved_are_0(dut: &mut Dut<'_>, from: usize, first: &[(u8, usize
         dut.fault(done)?;
     }
     Ok(())
+}
+
+/// Fails unless an abort names this object, that of its transfer.
+pub(crate) fn names(abort: &[u8; 8], address: Address) -> Checked {
+    ensure(
+        abort[1..4] == request(0x80, address, [0; 4])[1..4],
+        format!("an abort that names {address}, the object of the transfer"),
+        format!("{} came", values::hex(abort)),
+    )
 }
 
 /// Fails unless a response is one of these aborts, or 08000000h.

@@ -7,11 +7,11 @@ use od_wire::AbortCode::{
 };
 use od_wire::Frame;
 
-use super::segments::{ended_by_abort, long_value, short_value};
+use super::segments::{ended_by_abort, ends, long_value, short_value};
 use crate::conform::dut::{ANSWER, Dut, QUIET, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::record::Traced;
-use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request, reserved_are_0};
+use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, names, request, reserved_are_0};
 
 /// Variant of a block transfer of a client.
 #[derive(Clone, Copy)]
@@ -192,17 +192,18 @@ pub(super) fn upload_blocks(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// The first segments, each one lost in a transfer of its own.
 pub(super) fn upload_lost(dut: &mut Dut<'_>) -> Checked {
     let (_, bytes) = long_value(dut)?;
-    let lost = if bytes.len() > 7 { 2 } else { 1 };
-    same(
-        dut,
-        How {
+    for lost in 1..=bytes.len().div_ceil(7).min(4) as u8 {
+        let how = How {
             lost: Some(lost),
             crc: true,
             ..PLAIN
-        },
-    )
+        };
+        same(dut, how)?;
+    }
+    Ok(())
 }
 
 /// Uploads a short value by block, without a change to another protocol.
@@ -237,16 +238,26 @@ pub(super) fn upload_size_128(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn upload_ack_128(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
-    begin(dut, address, PLAIN)?;
-    dut.send(Frame::full(
-        dut.node.plus(0x600),
-        [0xA3, 0, 0, 0, 0, 0, 0, 0],
-    ))?;
-    for _ in 0..bytes.len().div_ceil(7).min(127) {
-        dut.response(ANSWER)?;
+    let codes = [InvalidSequence, InvalidBlockSize, InvalidCommand];
+    // A next block of 128 or of 0 segments, for the segments that the client lost.
+    let sizes: &[[u8; 2]] = &[[128, 127], [1, 0], [1, 128]];
+    for [number, size] in &sizes[..if bytes.len() > 7 { 3 } else { 1 }] {
+        begin(dut, address, PLAIN)?;
+        dut.send(Frame::full(
+            dut.node.plus(0x600),
+            [0xA3, 0, 0, 0, 0, 0, 0, 0],
+        ))?;
+        for _ in 0..bytes.len().div_ceil(7).min(127) {
+            dut.response(ANSWER)?;
+        }
+        let answer = dut.answer([0xA2, *number, *size, 0, 0, 0, 0, 0])?;
+        let refused = if *number == 128 {
+            &[InvalidSequence, InvalidCommand][..]
+        } else {
+            &codes
+        };
+        ends(&answer, address, refused)?;
     }
-    let answer = dut.answer([0xA2, 128, 127, 0, 0, 0, 0, 0])?;
-    is_abort(&answer, &[InvalidSequence, InvalidCommand])?;
     dut.still_serves()
 }
 
@@ -320,6 +331,7 @@ fn write(
             return fail("the confirmation of a block, A2h", "none came");
         };
         if let Some(code) = abort_of(&answer) {
+            names(&answer, address)?;
             return Ok(Err(code));
         }
         let got = format!("{} came", values::hex(&answer));
@@ -345,6 +357,7 @@ fn write(
     };
     let answer = dut.answer([0xC1 | unused << 2, sum[0], sum[1], 0, 0, 0, 0, 0])?;
     if let Some(code) = abort_of(&answer) {
+        names(&answer, address)?;
         return Ok(Err(code));
     }
     let got = format!("{} came", values::hex(&answer));
@@ -380,17 +393,20 @@ pub(super) fn download_crc(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn download_lost(dut: &mut Dut<'_>) -> Checked {
     let (_, bytes) = writable(dut)?;
-    if bytes.len() <= 14 {
-        return lacks("no value that can be written needs three segments");
+    let segments = bytes.len().div_ceil(7);
+    if segments < 2 {
+        return lacks("no value that can be written needs two segments");
     }
-    written(
-        dut,
-        How {
-            lost: Some(2),
+    // The server cannot know that the last one is lost.
+    for lost in 1..segments.min(5) as u8 {
+        let how = How {
+            lost: Some(lost),
             crc: true,
             ..PLAIN
-        },
-    )
+        };
+        written(dut, how)?;
+    }
+    Ok(())
 }
 
 pub(super) fn download_wrong_crc(dut: &mut Dut<'_>) -> Checked {

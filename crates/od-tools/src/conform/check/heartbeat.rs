@@ -23,22 +23,22 @@ pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     every(dut, 250, 4, state)?;
     // A time that needs both bytes.
     every(dut, 1000, 2, state)?;
-    if dut
-        .eds
-        .excludes(PRODUCER, &[0x88, 0x13], dut.node)
-        .is_some()
-    {
-        return Ok(());
+    for millis in [5000u16, 0x8000, 0xFFFF] {
+        let time = millis.to_le_bytes();
+        if dut.eds.excludes(PRODUCER, &time, dut.node).is_some() {
+            continue;
+        }
+        // The longer time takes effect at once, or after the heartbeat that was due.
+        every(dut, 100, 1, state)?;
+        dut.write(PRODUCER, &time)?;
+        let heard = dut.all_of(dut.id(0x700), 1_000_000)?;
+        ensure(
+            heard.len() < 3,
+            format!("at most two heartbeats in the first second with {millis} in 1017h"),
+            format!("{} came", heard.len()),
+        )?;
     }
-    // The longer time takes effect at once, or after the heartbeat that was due.
-    every(dut, 100, 1, state)?;
-    dut.write(PRODUCER, &[0x88, 0x13])?;
-    let heard = dut.all_of(dut.id(0x700), 1_000_000)?;
-    ensure(
-        heard.len() < 3,
-        "at most two heartbeats in the first second with 5000 in 1017h",
-        format!("{} came", heard.len()),
-    )
+    Ok(())
 }
 
 /// Checks that heartbeats arrive at this period, within 10 %, in the state after this command.
@@ -591,6 +591,23 @@ pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
     without_heartbeat(dut)?;
     for (millis, factor) in [(100, 2), (100, 4), (300, 1)] {
         life_time(dut, millis, factor)?;
+    }
+    // Long times: a guard time of more than 12 bits, and products of 16 and of more bits.
+    for (millis, factor) in [(4100u16, 1), (256, 255), (0x8000, 2), (0xFFFF, 255)] {
+        dut.set(Address::new(0x100C, 0), &millis.to_le_bytes())?;
+        dut.set(Address::new(0x100D, 0), &[factor])?;
+        dut.nmt(Command::Start)?;
+        let from = dut.frames.len();
+        guarded(dut)?;
+        if let Some(frame) = emcy_since(dut, from, 0x8130, 400_000)? {
+            return fail(
+                format!(
+                    "no EMCY 8130h in the first 400 ms with {millis} in 100Ch and {factor} in 100Dh"
+                ),
+                format!("{frame} came"),
+            );
+        }
+        dut.nmt(Command::EnterPreOperational)?;
     }
     Ok(())
 }

@@ -28,6 +28,7 @@ mod preset;
 mod rpdo;
 mod saved;
 mod segments;
+mod servers;
 mod states;
 mod stopping;
 mod store;
@@ -170,14 +171,14 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.2.4.3.17: A value below the lower limit is refused with 06090030h or 06090032h."),
         check("sdo-parameters", transfer::parameters,
             "CiA 301 7.5.2.33: 1200h has the CAN-IDs of the first SDO.").applies("1200h:01, 1200h:02"),
-        check("sdo-servers", transfer::servers,
+        check("sdo-servers", servers::servers,
             "CiA 301 7.5.2.33: The node has the SDO servers of the EDS from 1201h on."),
-        check("sdo-servers-parallel", transfer::servers_parallel,
+        check("sdo-servers-parallel", servers::servers_parallel,
             "CiA 301 7.2.4.3: A transfer of one SDO server does not disturb that of another.").applies("1201h"),
-        check("sdo-clients", transfer::clients,
+        check("sdo-clients", servers::clients,
             "CiA 301 7.5.2.34: The node has the SDO clients of the EDS from 1280h on."),
-        check("sdo-clients-valid", transfer::clients_valid,
-            "CiA 301 7.5.2.34: While an SDO client is not valid its COB-IDs can have other CAN-IDs; then it can be made valid.").applies("1280h:01 rw, 1280h:02 rw"),
+        check("sdo-clients-valid", servers::clients_valid,
+            "CiA 301 7.5.2.34: While an SDO client is not valid its COB-IDs can have other CAN-IDs; then it can be made valid, and keeps them.").applies("1280h:01 rw, 1280h:02 rw"),
         check("sdo-extended-frame", transfer::extended_frame,
             "CiA 301 7.3.3: A frame with the same CAN-ID in 29 bits is not a request."),
         check("sdo-other-node", transfer::other_node,
@@ -264,6 +265,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.2.8.3.3: The boot-up message is the first frame after power-on.").needs("power"),
         check("nmt-pre-operational", nmt::pre_operational_after_reset,
             "CiA 301 7.3.2.2.2: After a reset the node is in Pre-operational.").needs("reset"),
+        check("nmt-first-services", nmt::first_services,
+            "CiA 301 7.3.2.2.2: After boot-up SDO, error control and EMCY work before the first NMT command.").needs("reset"),
         check("nmt-start", nmt::start,
             "CiA 301 7.2.8.3.1: The command start leads to Operational."),
         check("nmt-stop", nmt::stop,

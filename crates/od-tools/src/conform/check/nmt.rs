@@ -4,10 +4,9 @@ use od_model::{Address, values};
 use od_wire::nmt::{Command, Repr};
 use od_wire::{CanId, CobId, Frame};
 
-use super::block;
-use super::segments;
-use super::transfer::{Channel, another_value};
-use super::transmit;
+use super::servers::Channel;
+use super::transfer::{another_value, optional};
+use super::{block, heartbeat, segments, transmit};
 use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::record::Traced;
@@ -189,6 +188,41 @@ pub(super) fn pre_operational_after_reset(dut: &mut Dut<'_>) -> Checked {
             dut.is_in(PRE_OPERATIONAL)?;
             dut.nmt(command)?;
             dut.is_in(state)?;
+        }
+    }
+    Ok(())
+}
+
+/// After a boot-up message the node serves before the first NMT command, as after one.
+pub(super) fn first_services(dut: &mut Dut<'_>) -> Checked {
+    let by_block = block::serves(dut)?;
+    let by_segments = optional(segments::long_value(dut))?;
+    let is_guarded = dut.guarded()?.is_some();
+    for reset in [Command::ResetNode, Command::ResetCommunication] {
+        dut.reset(reset)?;
+        if let Some((address, bytes)) = &by_segments {
+            dut.is_as_written(*address, bytes)?;
+        }
+        ensure(
+            !by_block || block::serves(dut)?,
+            "a block upload before the first NMT command",
+            "the node refuses block transfers",
+        )?;
+        for index in 0x1201..=0x1208 {
+            if let Some(channel) = Channel::of(dut, index)? {
+                channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
+            }
+        }
+        ensure(
+            !is_guarded || dut.guarded()?.is_some(),
+            "a response to node guarding before the first NMT command",
+            "none came",
+        )?;
+        optional(heartbeat::consumer_pre_operational(dut))?;
+        if optional(dut.follow_state())?.is_some() {
+            for _ in 0..3 {
+                dut.is_in(PRE_OPERATIONAL)?;
+            }
         }
     }
     Ok(())

@@ -11,7 +11,7 @@ use od_wire::nmt::Command;
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, ensure, fail, lacks, skip};
-use crate::conform::sdo::{abort_of, abort_text, is_abort, request, reserved_are_0};
+use crate::conform::sdo::{abort_of, abort_text, is_abort, names, request, reserved_are_0};
 
 /// An object with a value of more than four bytes, if possible of more than seven.
 pub(super) fn long_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
@@ -86,14 +86,27 @@ pub(super) fn upload_unused(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn upload_toggle(dut: &mut Dut<'_>) -> Checked {
-    let (address, _) = long_value(dut)?;
-    begin(dut, address)?;
-    let answer = dut.answer([0x70, 0, 0, 0, 0, 0, 0, 0])?;
-    is_abort(&answer, &[ToggleBit])?;
-    // The abort ended the transfer.
-    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
-    is_abort(&answer, &[InvalidCommand, ToggleBit])?;
+    let (address, bytes) = long_value(dut)?;
+    // In the first request, and, if there is one, in the second.
+    let wrong: &[&[u8]] = &[&[0x70], &[0x60, 0x60]];
+    for commands in &wrong[..if bytes.len() > 7 { 2 } else { 1 }] {
+        begin(dut, address)?;
+        let mut answer = [0; 8];
+        for command in *commands {
+            answer = dut.answer([*command, 0, 0, 0, 0, 0, 0, 0])?;
+        }
+        ends(&answer, address, &[ToggleBit])?;
+        // The abort ended the transfer.
+        let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+        is_abort(&answer, &[InvalidCommand, ToggleBit])?;
+    }
     dut.still_serves()
+}
+
+/// Fails unless the server ends the transfer of an object with one of these aborts, which names the object.
+pub(super) fn ends(answer: &[u8; 8], address: Address, codes: &[AbortCode]) -> Checked {
+    is_abort(answer, codes)?;
+    names(answer, address)
 }
 
 pub(super) fn download(dut: &mut Dut<'_>) -> Checked {
@@ -179,16 +192,31 @@ fn long_writable(dut: &mut Dut<'_>) -> Checked<Option<(Address, Vec<u8>)>> {
     Ok(None)
 }
 
+/// The wrong toggle bit in the first segment, and in the second.
 pub(super) fn download_toggle(dut: &mut Dut<'_>) -> Checked {
     let (address, before) = short_value(dut)?;
-    begin_download(dut, address, before.len())?;
+    let mut other = before.clone();
+    other[0] ^= 1;
+    let (half, rest) = other.split_at(other.len() / 2);
+    for (parts, toggle) in [(&[&other[..]][..], 0x10), (&[half, rest], 0)] {
+        begin_download(dut, address, before.len())?;
+        let mut answer = [0; 8];
+        for (number, part) in (1..).zip(parts) {
+            let last = u8::from(number == parts.len());
+            answer = dut.answer(segment(toggle | last, part))?;
+        }
+        ends(&answer, address, &[ToggleBit])?;
+        unchanged(dut, address, &before)?;
+    }
+    Ok(())
+}
+
+/// A segment of a download; `flags` are its toggle bit, and bit 0 of the last one.
+fn segment(flags: u8, part: &[u8]) -> [u8; 8] {
     let mut segment = [0; 8];
-    segment[0] = 0x10 | (7 - before.len() as u8) << 1 | 1;
-    segment[1..=before.len()].copy_from_slice(&before);
-    segment[1] ^= 1;
-    let answer = dut.answer(segment)?;
-    is_abort(&answer, &[ToggleBit])?;
-    unchanged(dut, address, &before)
+    segment[0] = flags | (7 - part.len() as u8) << 1;
+    segment[1..=part.len()].copy_from_slice(part);
+    segment
 }
 
 fn unchanged(dut: &mut Dut<'_>, address: Address, before: &[u8]) -> Checked {
@@ -200,7 +228,7 @@ fn unchanged(dut: &mut Dut<'_>, address: Address, before: &[u8]) -> Checked {
     )
 }
 
-/// The client announces more bytes than the object has.
+/// The client announces more bytes than the object has, or sends more than it announced.
 pub(super) fn download_too_long(dut: &mut Dut<'_>) -> Checked {
     let (address, before) = short_value(dut)?;
     let mut bytes = before.clone();
@@ -217,6 +245,12 @@ pub(super) fn download_too_long(dut: &mut Dut<'_>) -> Checked {
             is_abort(&request(0x80, address, code.to_le_bytes()), &codes)?;
         }
     }
+    unchanged(dut, address, &before)?;
+    // More bytes than were announced.
+    begin_download(dut, address, before.len())?;
+    bytes[0] ^= 1;
+    let answer = dut.answer(segment(1, &bytes[..7]))?;
+    ends(&answer, address, &codes)?;
     unchanged(dut, address, &before)
 }
 
@@ -229,11 +263,8 @@ pub(super) fn download_too_short(dut: &mut Dut<'_>) -> Checked {
     }
     for (address, before) in all {
         begin_download(dut, address, before.len())?;
-        let mut segment = [0; 8];
-        segment[0] = (7 - 1) << 1 | 1;
-        segment[1] = before[0] ^ 1;
-        let answer = dut.answer(segment)?;
-        is_abort(&answer, &[Length, TooShort])?;
+        let answer = dut.answer(segment(1, &[before[0] ^ 1]))?;
+        ends(&answer, address, &[Length, TooShort])?;
         unchanged(dut, address, &before)?;
     }
     Ok(())

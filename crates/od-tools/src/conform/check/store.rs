@@ -8,7 +8,7 @@ use super::transfer::another_saved;
 use crate::conform::dut::{Dut, is_data};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
-use crate::conform::sdo::number;
+use crate::conform::sdo::{abort_text, number};
 
 /// Time after the response to a save, since a node may still be writing, in microseconds.
 const MEMORY: u64 = 600_000;
@@ -307,8 +307,24 @@ fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
         return lacks("no parameter of communication can be written");
     };
     let before = dut.read(address)?;
+    let parts = [0x1010, 0x1011].map(|index| Address::new(index, sub));
+    let can = parts
+        .map(|part| dut.upload(part))
+        .into_iter()
+        .collect::<Checked<Vec<_>>>()?;
     dut.write(address, &bytes)?;
     let done = command(dut, 0x1010, sub, b"save").and_then(|()| {
+        for (part, can) in parts.into_iter().zip(can) {
+            let is = dut.upload(part)?;
+            ensure(
+                is == can,
+                format!("the same value in {part} after a save as before"),
+                format!(
+                    "{} was read",
+                    is.map_or_else(abort_text, |is| values::hex(&is))
+                ),
+            )?;
+        }
         // A node that keeps its values at a reset must have saved this one, too: write the earlier value before the reset.
         dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;

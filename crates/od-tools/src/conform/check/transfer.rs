@@ -7,13 +7,13 @@ use od_wire::AbortCode::{
     InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
     ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
 };
-use od_wire::{AbortCode, CanId, CobId, Frame};
+use od_wire::{AbortCode, CanId, Frame};
 
 use super::{block, segments};
-use crate::conform::dut::{ANSWER, Dut, FREE, QUIET, is_data};
+use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
-use crate::conform::sdo::{abort_of, abort_text, is_abort, number, request};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::sdo::{abort_of, is_abort, request};
 
 const TYPE: Address = Address::new(0x1000, 0);
 
@@ -90,7 +90,7 @@ pub(super) fn one_answer(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// The object, if the node has one for this test.
-fn optional<T>(found: Checked<T>) -> Checked<Option<T>> {
+pub(super) fn optional<T>(found: Checked<T>) -> Checked<Option<T>> {
     match found {
         Err(End::NotApplicable(_)) => Ok(None),
         found => found.map(Some),
@@ -426,268 +426,6 @@ pub(super) fn parameters(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// The node has the SDO servers of the EDS from 1201h on, and no others.
-/// Each server of the EDS responds on its own CAN-IDs; one that is not valid gets some first.
-pub(super) fn servers(dut: &mut Dut<'_>) -> Checked {
-    listed(dut, 0x1201..=0x1208)?;
-    for index in 0x1201..=0x1208 {
-        let done = serves(dut, index);
-        dut.fault(done)?;
-    }
-    Ok(())
-}
-
-/// CAN-IDs of an SDO server: of its requests and of its responses.
-#[derive(Clone, Copy)]
-pub(super) struct Channel {
-    ask: CanId,
-    answer: CanId,
-    /// Index of its parameters.
-    index: u16,
-}
-
-impl Channel {
-    /// The channel of a server from 1201h on, which gets CAN-IDs for the case if it is not valid; `None` if it cannot.
-    pub(super) fn of(dut: &mut Dut<'_>, index: u16) -> Checked<Option<Self>> {
-        if dut.eds.entry(index, 2).is_none() {
-            return Ok(None);
-        }
-        // The COB-ID of the responses comes first: the channel is valid as soon as both are valid.
-        let parts = [Address::new(index, 2), Address::new(index, 1)];
-        let mut ids = Vec::new();
-        for (address, free) in parts.into_iter().zip([0x6D0, 0x6B0]) {
-            let mut cob_id = CobId::new(dut.number(index, address.sub)? as u32);
-            if !cob_id.is_valid() {
-                let own = CobId::new(free + u32::from(index & 0xF));
-                dut.keep(address)?;
-                if !dut.eds.writes(index, address.sub)
-                    || dut.download(address, &own.raw().to_le_bytes())?.is_err()
-                {
-                    return Ok(None);
-                }
-                cob_id = own;
-            }
-            ids.push(cob_id.can_id());
-        }
-        let [answer, ask] = ids[..] else {
-            return Ok(None);
-        };
-        Ok(Some(Self { ask, answer, index }))
-    }
-
-    /// Sends a request; returns the response, if one comes within the time.
-    pub(super) fn ask(
-        self,
-        dut: &mut Dut<'_>,
-        request: [u8; 8],
-        micros: u64,
-    ) -> Checked<Option<Frame>> {
-        dut.drain()?;
-        dut.send(Frame::full(self.ask, request))?;
-        let heard = dut.awaited(micros, |frame| {
-            frame.id() == self.answer && !frame.is_remote()
-        })?;
-        Ok(heard.map(|heard| heard.frame))
-    }
-
-    /// A value of more than four bytes, by segments.
-    fn long(self, dut: &mut Dut<'_>, address: Address) -> Checked<Vec<u8>> {
-        self.serves(dut, request(0x40, address, [0; 4]))?;
-        let (mut bytes, mut toggle) = (Vec::new(), 0);
-        loop {
-            let Some(frame) = self.ask(dut, [0x60 | toggle, 0, 0, 0, 0, 0, 0, 0], ANSWER)? else {
-                return fail(
-                    format!("a segment {} of {address}", self.answer),
-                    "none came",
-                );
-            };
-            let [command, data @ ..] = *frame.bytes();
-            ensure(
-                command & 0xF0 == toggle && bytes.len() < 1 << 20,
-                format!("a segment {toggle:02X}h to {:02X}h", toggle | 0xF),
-                format!("{frame} came"),
-            )?;
-            bytes.extend_from_slice(&data[..7 - usize::from(command >> 1 & 7)]);
-            if command & 1 == 1 {
-                return Ok(bytes);
-            }
-            toggle ^= 0x10;
-        }
-    }
-
-    /// The response to a request, which must be about its object.
-    fn serves(self, dut: &mut Dut<'_>, request: [u8; 8]) -> Checked<[u8; 8]> {
-        let Self { ask, answer, index } = self;
-        let expected = format!("a response {answer} to {ask}, by the SDO server {index:04X}h");
-        match self.ask(dut, request, ANSWER)? {
-            Some(frame) => {
-                ensure(
-                    frame.dlc() == 8 && frame.bytes()[1..4] == request[1..4],
-                    expected,
-                    format!("{frame} came"),
-                )?;
-                Ok(*frame.bytes())
-            }
-            None => fail(expected, "none came"),
-        }
-    }
-}
-
-/// Uploads and a download by this server, and an abort.
-fn serves(dut: &mut Dut<'_>, index: u16) -> Checked {
-    let Some(channel) = Channel::of(dut, index)? else {
-        return Ok(());
-    };
-    channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
-    if let Some(missing) = dut.eds.missing() {
-        let answer = channel.serves(dut, request(0x40, Address::new(missing, 0), [0; 4]))?;
-        is_abort(&answer, &[NoObject])?;
-    }
-    match segments::long_value(dut) {
-        Err(End::NotApplicable(_)) => {}
-        found => {
-            let (address, bytes) = found?;
-            let again = channel.long(dut, address)?;
-            ensure(
-                again == bytes,
-                format!(
-                    "{} of {address} by the SDO server {index:04X}h",
-                    values::hex(&bytes)
-                ),
-                format!("{} came", values::hex(&again)),
-            )?;
-        }
-    }
-    let Some((address, value)) = another_value(dut)? else {
-        return Ok(());
-    };
-    dut.keep(address)?;
-    let answer = channel.serves(dut, request(0x2B, address, [value[0], value[1], 0, 0]))?;
-    ensure(
-        answer[0] == 0x60,
-        format!("the confirmation of a download by the SDO server {index:04X}h, 60h"),
-        format!("{} came", values::hex(&answer)),
-    )?;
-    let is = dut.read(address)?;
-    ensure(
-        is == value,
-        format!(
-            "{} in {address}, as written by the SDO server {index:04X}h",
-            values::hex(&value)
-        ),
-        format!("{} was read", values::hex(&is)),
-    )?;
-    is_off(dut, channel)
-}
-
-/// A server whose COB-ID is not valid does not respond.
-fn is_off(dut: &mut Dut<'_>, channel: Channel) -> Checked {
-    let index = channel.index;
-    if !dut.eds.writes(index, 1) {
-        return Ok(());
-    }
-    let address = Address::new(index, 1);
-    let off = number(&dut.keep(address)?) as u32 | 1 << 31;
-    if dut.download(address, &off.to_le_bytes())?.is_err() {
-        return Ok(());
-    }
-    match channel.ask(dut, request(0x40, TYPE, [0; 4]), QUIET)? {
-        Some(frame) => fail(
-            format!("no response of the SDO server {index:04X}h, whose COB-ID is not valid"),
-            format!("{frame} came"),
-        ),
-        None => Ok(()),
-    }
-}
-
-/// Each SDO server has a transfer of its own.
-pub(super) fn servers_parallel(dut: &mut Dut<'_>) -> Checked {
-    let (address, bytes) = segments::long_value(dut)?;
-    let mut any = false;
-    for index in 0x1201..=0x1208 {
-        let Some(channel) = Channel::of(dut, index)? else {
-            continue;
-        };
-        any = true;
-        segments::begin(dut, address)?;
-        channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
-        let again = dut.segments(None)?;
-        let done = ensure(
-            again == bytes,
-            format!(
-                "{} of {address} by the first SDO server, while {index:04X}h serves, too",
-                values::hex(&bytes)
-            ),
-            format!("{} came", values::hex(&again)),
-        );
-        dut.fault(done)?;
-    }
-    at_least_one(any, "the node has one SDO server")
-}
-
-pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
-    listed(dut, 0x1280..=0x1288)
-}
-
-/// While an SDO client is not valid its COB-IDs can have other CAN-IDs; then it can be made valid, and not valid again.
-pub(super) fn clients_valid(dut: &mut Dut<'_>) -> Checked {
-    const NOT_VALID: u32 = 1 << 31;
-    let mut any = false;
-    for index in 0x1280..=0x1288 {
-        let both = [1, 2].map(|sub| Address::new(index, sub));
-        if !both.iter().all(|one| dut.eds.writes(one.index, one.sub)) {
-            continue;
-        }
-        any = true;
-        for address in both {
-            dut.keep(address)?;
-            let off = dut.number(index, address.sub)? as u32 | NOT_VALID;
-            dut.write(address, &off.to_le_bytes())?;
-        }
-        let ids = both.map(|one| (one, u32::from(FREE + 0x18) + u32::from(one.sub)));
-        for flag in [NOT_VALID, 0, NOT_VALID] {
-            for (address, id) in ids {
-                let value = (id | flag).to_le_bytes();
-                dut.write(address, &value)?;
-                let done = dut.is_as_written(address, &value);
-                dut.fault(done)?;
-            }
-        }
-        let server = Address::new(index, 3);
-        if dut.eds.writes(index, 3) {
-            let before = dut.keep(server)?;
-            let other = [if before == [2] { 3 } else { 2 }];
-            dut.write(server, &other)?;
-            let done = dut.is_as_written(server, &other);
-            dut.fault(done)?;
-        }
-    }
-    at_least_one(any, "no COB-ID of an SDO client can be written")
-}
-
-/// The node has the objects of this range in the EDS, and no others.
-pub(super) fn listed(dut: &mut Dut<'_>, range: impl Iterator<Item = u16>) -> Checked {
-    for index in range {
-        let has = dut.eds.has(index);
-        let answer = dut.upload(Address::new(index, 0))?;
-        match answer {
-            Err(code) if code == NoObject.code() => {
-                ensure(
-                    !has,
-                    format!("{index:04X}h, as the EDS has it"),
-                    abort_text(code),
-                )?;
-            }
-            _ => ensure(
-                has,
-                format!("no {index:04X}h, as the EDS has none"),
-                "the node has it",
-            )?,
-        }
-    }
-    Ok(())
-}
-
 /// The node does not respond to requests for another node, which do not disturb a transfer of its own either.
 pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.node.raw();
@@ -735,8 +473,10 @@ pub(super) fn no_request(dut: &mut Dut<'_>) -> Checked {
     let id = dut.id(0x600);
     dut.send_to(id, &[])?;
     dut.send_to(id, &[0x40])?;
-    dut.ask_for(od_wire::CanId::standard(id), 8)?;
     dut.wait(QUIET)?;
+    dut.ask_for(CanId::standard(id), 8)?;
+    let response = dut.id(0x580);
+    dut.silent(response, QUIET, "no SDO response to a remote frame")?;
     dut.still_serves()
 }
 
