@@ -402,7 +402,15 @@ fn is_overlay(path: &Path) -> bool {
 fn base_of(path: &Path, overlay: &Document) -> Result<String, String> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let base = match od_eds::base_of(overlay.text()) {
-        Some(named) => folder.join(*named),
+        Some(named) => {
+            let base = folder.join(*named);
+            if !base.exists() {
+                let line = named.span.line;
+                let shown = base.display();
+                return Err(format!("line {line}: the base {shown} does not exist"));
+            }
+            base
+        }
         None => only_eds(folder)
             .ok_or("an overlay needs a base; add a first line `;odkit-base=my.eds`")?,
     };

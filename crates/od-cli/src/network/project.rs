@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
-    configure, consume_heartbeats, misspelled_key, not_mappable, unusual_bit_rate,
+    configure, consume_heartbeats, misspelled_key, no_sync, not_mappable, read_only,
+    unusual_bit_rate,
 };
 use od_eds::{Finding, Span};
 use od_model::Address;
@@ -115,6 +116,8 @@ struct Section<'a> {
     /// Line of the name.
     line: u32,
     yaml: &'a Yaml,
+    /// The whole project.
+    whole: &'a Yaml,
 }
 
 impl<'a> Section<'a> {
@@ -205,6 +208,20 @@ impl<'a> Section<'a> {
             }
         }
         found
+    }
+
+    /// The findings about objects below `sdo` that a master cannot write.
+    fn read_only(&self, node: &Node, wanted: &Configuration) -> Vec<Finding> {
+        let writes = wanted.sdo.iter().enumerate();
+        let found = writes.filter_map(|(at, (address, _))| {
+            let entry = self.place_of(Setting::Sdo(at));
+            read_only(
+                node,
+                *address,
+                entry.map(|entry| entry.span).unwrap_or_default(),
+            )
+        });
+        found.collect()
     }
 
     /// A number of a key; `None` if the key is missing.
@@ -305,8 +322,12 @@ impl<'a> Section<'a> {
     /// The findings about keys of `yaml` that look like one of these. Drivers of ros2_canopen have keys of their own.
     fn misspelled(&self, yaml: &Yaml, known: &[&str]) -> Vec<Finding> {
         let keys = yaml.entries().iter();
-        keys.filter_map(|(key, _)| misspelled_key(self.name, &key.text(), known, key.span))
-            .collect()
+        keys.filter_map(|(key, _)| {
+            let owner = owner(self.whole, key.span);
+            let name = owner.unwrap_or_else(|| self.name.into());
+            misspelled_key(&name, &key.text(), known, key.span)
+        })
+        .collect()
     }
 
     /// The findings about misspelled keys of a slave.
@@ -436,6 +457,15 @@ fn slaves(whole: &Yaml) -> Vec<(Yaml, Yaml)> {
         .collect()
 }
 
+/// The name of the section or the node that a place is in: keys of `defaults` and of an anchor belong to several nodes.
+fn owner(whole: &Yaml, place: Span) -> Option<String> {
+    let nodes = whole.get("nodes").map_or(&[][..], Yaml::entries);
+    let all = whole.entries().iter().chain(nodes);
+    let above = all.filter(|(name, _)| name.span.start <= place.start);
+    let last = above.max_by_key(|(name, _)| name.span.start)?;
+    Some(last.0.text())
+}
+
 /// Reads a project; `load` reads the description at a path.
 ///
 /// # Errors
@@ -452,6 +482,7 @@ pub(super) fn read(
             name: "options",
             line: yaml.span.line,
             yaml,
+            whole: &whole,
         };
         findings.extend(own.misspelled(yaml, OPTION_KEYS));
         settings.dcf_path = own.text("dcf_path").unwrap_or_default();
@@ -465,6 +496,7 @@ pub(super) fn read(
         name: "master",
         line: master.span.line,
         yaml: master,
+        whole: &whole,
     };
     let master_places = (master.span, own.places());
     findings.extend(own.misspelled(master, MASTER_KEYS));
@@ -472,6 +504,12 @@ pub(super) fn read(
         let number = own.number("baudrate")?.unwrap_or_default();
         findings.extend(unusual_bit_rate(number, rate.span));
     }
+    let has_sync = own.number("sync_period")?.unwrap_or(0) > 0;
+    let of_sync = ["sync_window", "sync_overflow"].into_iter();
+    findings.extend(of_sync.filter(|_| !has_sync).filter_map(|key| {
+        let value = master.get(key)?;
+        (value.integer() != Some(0)).then(|| no_sync(key, value.span))
+    }));
     let master = own.master(&settings)?;
     let mut nodes = Vec::new();
     // Where the misspelled keys are that are reported.
@@ -482,6 +520,7 @@ pub(super) fn read(
             name: &name,
             line: key.span.line,
             yaml: &yaml,
+            whole: &whole,
         };
         // The keys of `defaults` and of an alias are those of several nodes.
         let misspelled = section.misspelled_of_slave().into_iter();
@@ -506,6 +545,7 @@ pub(super) fn read(
         let mut node = Node::new(name.clone(), id, description);
         let wanted = section.configuration()?;
         findings.extend(section.unmapped(&node, &wanted));
+        findings.extend(section.read_only(&node, &wanted));
         (node.place, node.places) = (key.span, section.places());
         configure(&mut node, &wanted, &mut settings).map_err(|unfit| section.unfit(unfit))?;
         nodes.push(node);

@@ -227,7 +227,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
         ),
         (
             9,
-            "W1208]: left: `hartbeat_producer` is not a key of dcfgen",
+            "W1208]: defaults: `hartbeat_producer` is not a key of dcfgen",
         ),
         (
             14,
@@ -243,6 +243,31 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
         assert!(place.contains(&format!("bus.yml:{line}:")), "{}", run.err);
     }
     assert_eq!(run.err.matches("[W1208]").count(), 4, "{}", run.err);
+    // A setting without effect, and a value that only the device writes.
+    let text = format!(
+        "master:\n  node_id: 1\n  sync_window: 500\nleft:\n  dcf: {eds}\n  node_id: 5\n\
+         \x20 sdo:\n    - {{index: 0x1016, sub_index: 1, value: 0}}\n    - {{index: 0x1001, value: 0}}\n"
+    );
+    let (run, _) = network("no-effect", "bus.yml", &text);
+    assert_eq!(run.code, 1, "{}", run.err);
+    for (line, said) in [
+        (
+            3,
+            "W1213]: `sync_window` has no effect without `sync_period`",
+        ),
+        (
+            9,
+            "E1212]: left: AccessType of 1001h \"Error register\" is `ro`",
+        ),
+    ] {
+        let found = run
+            .err
+            .find(said)
+            .unwrap_or_else(|| panic!("{said}\n{}", run.err));
+        let place = run.err[found..].lines().nth(1).unwrap_or_default();
+        assert!(place.contains(&format!("bus.yml:{line}:")), "{}", run.err);
+    }
+    assert_eq!(run.err.matches("[E1212]").count(), 1, "{}", run.err);
     let (run, _) = network("master-id", "bus.yml", "master:\n  node_id: 128\n");
     let said = "line 2: master: node_id is not valid: write 1 to 127";
     assert!(run.err.contains(said), "{}", run.err);
@@ -390,6 +415,13 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
     fs::write(&list, text).expect("a file");
     let out = folder.join("out");
     let paths = [list.display().to_string(), out.display().to_string()];
+    // The number of nodes may also count those that are not present.
+    for count in ["0x02", "3"] {
+        let text = text.replace("0x02", count);
+        fs::write(&list, text).expect("a file");
+        let run = odkit(&["network", &paths[0]], "");
+        assert!(!run.err.contains("W1207"), "{count}: {}", run.err);
+    }
     let run = odkit(&["network", &paths[0], "-o", &paths[1]], "");
     // Two encoders consume SYNC only if a PDO is synchronous, and no node produces it.
     assert_eq!(run.code, 0, "{}", run.err);

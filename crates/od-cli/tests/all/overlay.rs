@@ -112,5 +112,10 @@ fn an_overlay_alone_names_its_base() {
     assert!(check.err.contains("name an EDS or a DCF"), "{}", check.err);
     let gone = write("gone.overlay", ";odkit-base=none.eds\n[6001]\n");
     let check = odkit(&["check", &gone], "");
-    assert!(check.err.contains("none.eds"), "{}", check.err);
+    assert!(check.err.contains("line 1: the base "), "{}", check.err);
+    assert!(
+        check.err.contains("none.eds does not exist"),
+        "{}",
+        check.err
+    );
 }

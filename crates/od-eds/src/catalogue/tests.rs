@@ -239,12 +239,14 @@ fn faults_of_networks() -> Vec<Finding> {
     let misspelled = crate::network::misspelled_key("a", "nodeid", &["node_id"], span);
     found.extend(misspelled);
     found.extend(crate::network::unusual_bit_rate(300, span));
+    found.push(crate::network::no_sync("sync_window", span));
     let values =
         "[2000]\nDataType=5\nAccessType=ro\nPDOMapping=1\n[2001]\nDataType=5\nAccessType=rw\n";
     let mapping = node("d", 3, values);
     for index in [0x2000, 0x2001] {
         let address = od_model::Address::new(index, 0);
         found.extend(crate::network::not_mappable(&mapping, true, address, span));
+        found.extend(crate::network::read_only(&mapping, address, span));
     }
     found
 }

@@ -18,7 +18,9 @@ mod report;
 mod saved;
 mod write;
 
-pub use crate::rules::network::{misspelled_key, not_mappable, unusual_bit_rate};
+pub use crate::rules::network::{
+    misspelled_key, no_sync, not_mappable, read_only, unusual_bit_rate,
+};
 pub use concise::{Write, bytes};
 pub use configure::{Configuration, ProjectSettings, Unfit, configure};
 pub use dcf::dcf;

@@ -96,7 +96,8 @@ pub(crate) fn object(
         entries.insert(0, entry);
     } else {
         flags = reader.flags(&mut fields, &mut unread).max(flags);
-        if matches!(*code, ObjectCode::Array | ObjectCode::Record) {
+        // The keys of an object that is mistaken for a VAR are those of a VAR.
+        if !mistaken && matches!(*code, ObjectCode::Array | ObjectCode::Record) {
             for key in W0325_KEYS.into_iter().filter(|key| fields.has(key.name())) {
                 let Some(place) = fields.place(key.name()) else {
                     continue;
@@ -120,7 +121,7 @@ pub(crate) fn object(
             None => Spanned::from(counted),
         },
         (None, None) => {
-            if counted > 0 {
+            if counted > 0 && !mistaken {
                 reader.report(w0317_sub_number_missing(fields.header, counted));
             }
             Spanned::from(counted)
@@ -264,7 +265,15 @@ fn contradiction(
         (None, Some(count)) => count.span,
         (None, None) => fields.header,
     };
-    reader.report(e0305_var_with_sub_objects(span, code, count.is_some()));
+    let standard = cia301::of(reader.address.index);
+    let same = standard.filter(|standard| standard.code() == *code);
+    let same = same.map(|standard| standard.source());
+    reader.report(e0305_var_with_sub_objects(
+        span,
+        code,
+        count.is_some(),
+        same,
+    ));
     let meant = match count {
         Some(_) => ObjectCode::Array,
         None => ObjectCode::Record,

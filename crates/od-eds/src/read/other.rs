@@ -14,6 +14,7 @@ use crate::rules::standard::reader::{
 };
 use crate::rules::structure::reader::{i0319_unknown_key, w0318_key_misspelled};
 use crate::rules::structure::w0344_name_too_long::text_too_long;
+use crate::rules::text::w0109_comment_after_other;
 use crate::scan::forms;
 use crate::scan::forms::{Form, OBJECT_KEYS, SectionForm};
 use crate::scan::names::List;
@@ -130,6 +131,11 @@ fn check_value(known: &SectionForm, key: &str, value: &Text<'_>, form: Form, log
             Form::Date | Form::Time => i0610_date_or_time(key, value, form),
             _ => w0609_key_value_not_valid(&known.name.replace('#', "1"), key, value, form),
         });
+    } else if form.is_number() {
+        let number = number::before_comment(value);
+        if number.len() < value.len() {
+            log.push(w0109_comment_after_other(key, value, number));
+        }
     }
 }
 

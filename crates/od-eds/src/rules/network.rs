@@ -23,6 +23,8 @@ table! {
     E1209 (example)
     E1210 (example)
     W1211 (example)
+    E1212 (example)
+    W1213 (example)
 }
 
 pub(crate) static E1201: Rule = Rule {
@@ -370,4 +372,41 @@ pub(crate) static W1211: Rule = Rule {
 pub fn unusual_bit_rate(rate: u32, span: Span) -> Option<Finding> {
     let finding = W1211.at(span).fact("rate", i128::from(rate));
     (!BIT_RATES.contains(&rate)).then_some(finding)
+}
+
+pub(crate) static E1212: Rule = Rule {
+    title: "project writes an object that is read-only",
+    why: "The node aborts the download, and the master does not boot it. dcfgen writes the entry all the same, and so does odkit.",
+    source: "CiA 306-1, AccessType; dcf-tools, dcfgen",
+    example: "sdo: [{index: 0x1001, value: 0}]",
+    says: "{node}: AccessType of {object} \"{name}\" is `{access}`",
+    help: "remove the entry, or write another object",
+    ..Rule::of("E1212")
+};
+
+/// Returns the finding about an object of a node that a project writes at `span`, if a master cannot write it.
+pub fn read_only(node: &Node, address: Address, span: Span) -> Option<Finding> {
+    let object = node.description.objects.get(&address.index)?;
+    let entry = object.entries.get(&address.sub)?;
+    let finding = E1212.at(span).about(address);
+    let finding = finding.fact("node", node.name.as_str());
+    let finding = finding.fact("object", shown(object, address));
+    let finding = finding.fact("name", entry.name.as_str());
+    let is_read_only = !entry.access.writable();
+    is_read_only.then(|| finding.fact("access", *entry.access))
+}
+
+pub(crate) static W1213: Rule = Rule {
+    title: "setting of SYNC in a project without a SYNC",
+    why: "The master sends no SYNC, so the setting has no effect.",
+    source: "CiA 301, SYNC; dcf-tools, dcfgen",
+    example: "sync_window: 1000, without sync_period",
+    says: "`{key}` has no effect without `sync_period`",
+    help: "write `sync_period: 10000` (microseconds) in `master`, or remove `{key}`",
+    ..Rule::of("W1213")
+};
+
+/// The finding about a setting of SYNC at `span` of a master that sends no SYNC.
+pub fn no_sync(key: &str, span: Span) -> Finding {
+    W1213.at(span).fact("key", key)
 }

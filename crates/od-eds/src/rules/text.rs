@@ -200,18 +200,36 @@ pub(crate) static W0109: Rule = Rule {
     fixability: Fixability::Safe,
     says: "`{given}` has a comment after the value",
     help: "write `{key={right}}`, and the comment on the next line{fix}",
+    also: &[W0109_OTHER],
     ..Rule::of("W0109")
 };
 
-/// The finding about a value with a comment after it; the fix gives the comment its own line.
+/// Sentence for a key outside the object sections.
+const W0109_OTHER: Form = Form {
+    help: "write `{name}={right}`, and the comment on the next line{fix}",
+    ..Form::OWN
+};
+
+/// The finding about a value outside the object sections with a comment after it.
+pub(crate) fn w0109_comment_after_other(name: &str, given: &Text<'_>, value: &str) -> Finding {
+    let finding = comment_after(given, value).form(&W0109_OTHER);
+    finding.fact("name", name)
+}
+
+/// The finding about a value with a comment after it.
 pub(crate) fn w0109_comment_after_value(key: Key, given: &Text<'_>, value: &str) -> Finding {
+    comment_after(given, value).key(key)
+}
+
+/// The finding whose fix gives the comment its own line.
+fn comment_after(given: &Text<'_>, value: &str) -> Finding {
     let comment = given.get(value.len()..).unwrap_or_default().trim();
     let comment = format!(
         "{value}\n{}",
         lines::comment(&comment[comment.len().min(1)..])
     );
-    let finding = W0109.given(given).key(key);
-    finding
+    W0109
+        .given(given)
         .fact("right", value)
         .fix(Fix::safe().replace(given.span, comment))
 }

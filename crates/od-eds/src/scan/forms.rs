@@ -24,6 +24,13 @@ pub enum Form {
     Time,
 }
 
+impl Form {
+    /// Returns whether the value is a number, which a comment after it does not change.
+    pub(crate) const fn is_number(self) -> bool {
+        matches!(self, Self::Flag | Self::Number(_) | Self::Version)
+    }
+}
+
 /// A section with its keys; a `#` in a name stands for a number.
 pub struct SectionForm {
     /// Name.

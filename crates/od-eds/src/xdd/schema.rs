@@ -42,6 +42,8 @@ pub enum Value {
     Flag,
     /// A number from 0 to this one.
     Number(u32),
+    /// A number, also with a decimal point.
+    Real,
     /// Hexadecimal digits without `0x`, two for each byte.
     Hex,
     /// The same with this number of digits; another rule reports what is not hexadecimal.
@@ -56,7 +58,9 @@ pub enum Value {
     Profile,
 }
 
-use Value::{Any, Capitals, Date, Digits, Flag, Hex, Number, Profile, Reference, Time, Words};
+use Value::{
+    Any, Capitals, Date, Digits, Flag, Hex, Number, Profile, Real, Reference, Time, Words,
+};
 
 const fn own(name: &'static str, value: Value) -> Attribute {
     Attribute {
@@ -135,8 +139,8 @@ const PARAMETER: &[Attribute] = &[
     own("accessList", Any),
     own("support", Words(&["mandatory", "optional", "conditional"])),
     own("persistent", Flag),
-    own("offset", Any),
-    own("multiplier", Any),
+    own("offset", Real),
+    own("multiplier", Real),
     own("templateIDRef", Reference),
 ];
 
@@ -144,8 +148,8 @@ const TEXT: &[Attribute] = &[required("lang", Any), own("URI", Any)];
 /// A value of a parameter: its default, a limit, a step.
 const VALUE: &[Attribute] = &[
     required("value", Any),
-    own("offset", Any),
-    own("multiplier", Any),
+    own("offset", Real),
+    own("multiplier", Real),
 ];
 const UNIQUE: &[Attribute] = &[own("uniqueIDRef", Reference)];
 
@@ -256,7 +260,7 @@ const ELEMENTS: &[(&str, &[Attribute])] = &[
     ("step", VALUE),
     ("substituteValue", VALUE),
     ("supportedBaudRate", &[required("value", Any)]),
-    ("unit", &[own("multiplier", Any), own("unitURI", Any)]),
+    ("unit", &[own("multiplier", Real), own("unitURI", Any)]),
     ("variableRef", &[]),
 ];
 
@@ -602,6 +606,7 @@ pub(super) fn fits(value: Value, text: &str) -> bool {
         Words(words) => words.contains(&text),
         Capitals(words) => words.iter().any(|word| word.eq_ignore_ascii_case(text)),
         Flag => matches!(text, "true" | "false" | "0" | "1"),
+        Real => text.trim().parse::<f64>().is_ok_and(f64::is_finite),
         Number(most) => text.parse::<u32>().is_ok_and(|number| number <= most),
         Digits(most) => {
             let digits = bare(text);
@@ -668,6 +673,7 @@ fn form(value: Value) -> String {
         Words(words) | Capitals(words) => one_of(words),
         Flag => "`true` or `false`".into(),
         Number(most) => format!("a number from 0 to {most}"),
+        Real => "a number, such as `0.1`".into(),
         Digits(digits) => format!("{digits} hexadecimal digits, without `0x`"),
         Hex => "hexadecimal digits, two for each byte, without `0x`".into(),
         Date => "year, month and day, such as `2026-11-27`".into(),

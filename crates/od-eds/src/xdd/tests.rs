@@ -354,6 +354,10 @@ fn attributes_of_a_parameter_are_those_of_the_schema() {
             &["`unitUrl` is not an attribute of CiA 311 for this element"],
         ),
         (
+            "<unit multiplier=\"0.1 bar\" unitURI=\"#bar\"/>",
+            &["`0.1 bar` is not a valid multiplier"],
+        ),
+        (
             "<property name=\"a\"/>",
             &["attribute value of property is missing"],
         ),

@@ -44,8 +44,10 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         return;
     };
     for field in ["NodeID", "Baudrate"] {
-        if section.get(field).is_none() {
-            let finding = W0653.at(section.name.span).fact("field", field);
+        let given = section.get(field);
+        if given.is_none_or(|given| given.is_empty()) {
+            let place = given.map_or(section.name.span, |given| given.span);
+            let finding = W0653.at(place).fact("field", field);
             findings.push(finding.fact("section", section.name.as_str()));
         }
     }

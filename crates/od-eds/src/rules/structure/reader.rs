@@ -93,7 +93,7 @@ pub(crate) static E0305: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "{code} cannot have sub-objects",
     help: "write `{ObjectType=0x9}` for a RECORD{fix}, or `{ObjectType=0x8}` for an ARRAY",
-    also: &[E0305_COMPACT],
+    also: &[E0305_COMPACT, E0305_STANDARD],
     ..Rule::of("E0305")
 };
 
@@ -103,13 +103,25 @@ const E0305_COMPACT: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about sub-objects of an object whose code does not allow them, at the code if the
-/// file has it.
+/// Sentence for an object that has no sub-objects in the standard, either.
+const E0305_STANDARD: Form = Form {
+    says: "{code} cannot have sub-objects, and {standard} specifies {code}",
+    help: "remove the section of the sub-object",
+};
+
+/// The finding about sub-objects of an object whose code does not allow them: at the first of them if the standard
+/// specifies the same code, otherwise at the code if the file has it.
 pub(crate) fn e0305_var_with_sub_objects(
     member: Span,
     code: Spanned<ObjectCode>,
     compact: bool,
+    standard: Option<&str>,
 ) -> Finding {
+    if let Some(standard) = standard {
+        let finding = E0305.at(member).form(&E0305_STANDARD);
+        let finding = finding.fact("code", *code).fact("standard", standard);
+        return finding.related(code.span, "declared as {code} here");
+    }
     let finding = E0305.at(code.span.or(member)).fact("code", *code);
     let finding = match code.span.line {
         0 => finding,
