@@ -251,18 +251,22 @@ pub(super) fn fixed(dut: &mut Dut<'_>) -> Checked {
             continue;
         }
         any = true;
-        let done = dut.cannot_change(
-            address,
-            &other.to_le_bytes(),
-            "as the COB-ID is valid with another CAN-ID",
-        );
-        if done.is_err() {
-            dut.fault(done)?;
-            for value in [other | 1 << 31, before | 1 << 31, before] {
-                let _ = dut.download(address, &value.to_le_bytes())?;
+        for command in [Command::EnterPreOperational, Command::Start] {
+            dut.nmt(command)?;
+            let done = dut.cannot_change(
+                address,
+                &other.to_le_bytes(),
+                "as the COB-ID is valid with another CAN-ID",
+            );
+            if done.is_err() {
+                dut.fault(done)?;
+                for value in [other | 1 << 31, before | 1 << 31, before] {
+                    let _ = dut.download(address, &value.to_le_bytes())?;
+                }
             }
         }
     }
+    dut.nmt(Command::EnterPreOperational)?;
     at_least_one(any, "no COB-ID that is valid can be written")
 }
 

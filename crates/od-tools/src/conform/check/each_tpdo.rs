@@ -242,6 +242,10 @@ fn forbids_rtr(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     for value in [before | 1 << 31, other | 1 << 31, other] {
         let done = dut.download(pdo.address(1), &value.to_le_bytes())?;
         is_taken = is_taken && done.is_ok();
+        if is_taken {
+            let done = dut.is_as_written(pdo.address(1), &value.to_le_bytes());
+            dut.fault(done)?;
+        }
     }
     let done = if is_taken {
         dut.nmt(Command::Start)?;
@@ -291,8 +295,11 @@ fn keeps_times(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
         dut,
         pdo,
         2,
-        |gap, slack| gap + slack + 5_000 >= 100_000,
-        &format!("every 100 ms at most by the inhibit time of TPDO{number}"),
+        // The event timer waits for the end of the inhibit time, or begins again then.
+        |gap, slack| gap + slack + 5_000 >= 100_000 && gap <= 155_000 + slack,
+        &format!(
+            "every 100 to 150 ms by the inhibit time of TPDO{number} and an event timer of 50 ms"
+        ),
     );
     dut.nmt(Command::EnterPreOperational)?;
     switch(dut, &before)?;

@@ -297,6 +297,33 @@ pub(super) fn constants(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// While the shaft turns, 2118h of EAM is the speed of 6030h in revolutions per minute (manual 001).
+pub(super) fn revolutions(dut: &mut Dut<'_>) -> Checked {
+    super::maker::is_of(dut, &[super::maker::EAM])?;
+    let gear = Address::new(0x2001, 1);
+    if dut.eds.entry(gear.index, gear.sub).is_some() && dut.number(gear.index, gear.sub)? != 1 {
+        return lacks("the electronic gear is on");
+    }
+    let steps = dut.number(STEPS.index, 0)?.max(1) as i64;
+    // A device computes a speed over some time.
+    dut.wait(500_000)?;
+    let [before, is, after] = [(0x6030, 1), (0x2118, 0), (0x6030, 1)].map(|(index, sub)| {
+        dut.read(Address::new(index, sub))
+            .map(|it| super::axis::signed(&it))
+    });
+    let (before, is, after) = (before?, is?, after?);
+    let wanted = [before, after].map(|speed| 60 * speed / steps);
+    if wanted.iter().any(|speed| speed.abs() < 5) {
+        return lacks("the shaft does not turn fast enough");
+    }
+    let off = 1 + wanted[0].abs() / 10;
+    ensure(
+        (wanted[0].min(wanted[1]) - off..=wanted[0].max(wanted[1]) + off).contains(&is),
+        format!("about {} in 2118h, as 6030h:01 is {after}", wanted[1]),
+        format!("{is} was read"),
+    )
+}
+
 /// While the shaft turns, 6030h is multiplied by 6031h:03 and divided by 6031h:04.
 pub(super) fn speed_factor(dut: &mut Dut<'_>) -> Checked {
     let [multiplier, divider] = [3, 4].map(|sub| Address::new(0x6031, sub));

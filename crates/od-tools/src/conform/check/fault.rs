@@ -117,7 +117,19 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
         }
         // The greatest number turns the supervision off.
         axis.choose(dut, 0x6065, u32::MAX.into())?;
-        let greatest = axis.strays(dut, pace, u32::MAX.into())?.greatest;
+        let Stray {
+            greatest, apart, ..
+        } = axis.strays(dut, pace, u32::MAX.into())?;
+        let window = axis.window(dut, 0x6067)?;
+        let done = ensure(
+            apart < 10 * window.max(1) || 4 * greatest >= apart,
+            format!(
+                "about {apart} in {}, the distance of 6062h and 6064h",
+                axis.at(0x60F4)
+            ),
+            format!("{greatest} was read at most"),
+        );
+        dut.fault(done)?;
         if greatest < 8 {
             return lacks("the axis follows its demand so closely that no window is too small");
         }
@@ -168,6 +180,8 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
 struct Stray {
     /// The greatest following error before bit 13 was 1.
     greatest: i64,
+    /// The greatest distance of 6062h and 6064h, read one after the other.
+    apart: i64,
     /// Milliseconds from the moment at which the error was beyond the window to bit 13 or a fault; `None` without them.
     error_after: Option<i64>,
 }
@@ -208,8 +222,14 @@ impl Axis {
         let mut asked = from;
         self.set_point(dut, target, 0)?;
         let end = dut.now().plus_micros(MOVE);
-        let (mut greatest, mut beyond) = (0, None);
+        let (mut greatest, mut apart, mut beyond) = (0, 0, None);
+        // More reads take time, in which an error may come unseen.
+        let compares = self.has(dut, 0x6062) && window == i64::from(u32::MAX);
         loop {
+            if compares {
+                let demand = self.value(dut, 0x6062)?;
+                apart = apart.max((demand - self.value(dut, 0x6064)?).abs());
+            }
             let error = self.value(dut, 0x60F4)?.abs();
             greatest = greatest.max(error);
             if error > window {
@@ -221,12 +241,14 @@ impl Axis {
                 let millis = dut.now().micros_since(beyond.unwrap_or(from)) / 1000;
                 return Ok(Stray {
                     greatest,
+                    apart,
                     error_after: Some(millis as i64),
                 });
             }
             if word & REACHED.1 != 0 || dut.now() >= end {
                 return Ok(Stray {
                     greatest,
+                    apart,
                     error_after: None,
                 });
             }

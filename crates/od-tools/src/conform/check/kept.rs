@@ -5,10 +5,10 @@ use od_model::{Address, Entry, Group, values};
 use od_wire::CobId;
 use od_wire::nmt::Command;
 
+use super::content::carries_values;
 use super::each_tpdo::on_each;
 use super::mapping::fillings;
 use super::store::command;
-use super::tpdo::carries_values;
 use super::transmit::{Mapped, contradiction, is_on, mapping, timed_on};
 use crate::conform::dut::{Dut, FREE};
 use crate::conform::eds::is_number;

@@ -4,6 +4,7 @@ mod arrival;
 mod axis;
 mod block;
 mod cob_ids;
+mod content;
 mod drive;
 mod each_rpdo;
 mod each_tpdo;
@@ -404,8 +405,10 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.3.2.2.4: SYNC triggers no TPDO in Pre-operational and Stopped.").applies("tpdo"),
         check("tpdo-length", tpdo::length,
             "CiA 301 7.5.2.38: A TPDO has the bytes of its mapping.").applies("tpdo"),
-        check("tpdo-content", tpdo::content,
+        check("tpdo-content", content::content,
             "CiA 301 7.5.2.38: A TPDO carries the values that SDO reads.").applies("tpdo"),
+        check("tpdo-sampled", content::sampled,
+            "CiA 301 7.5.2.37: A TPDO that SYNC or a remote frame sends has the values that SDO reads.").applies("tpdo"),
         check("tpdo-off", tpdo::off,
             "CiA 301 7.5.2.37: Bit 31 of the COB-ID disables a TPDO, also for SYNC and remote frames.").applies("tpdo"),
         check("tpdo-cob-id", tpdo::cob_id,
@@ -422,7 +425,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.37: Every TPDO has its CAN-ID, the length of its mapping, its event timer and its inhibit time, and bit 31 disables it.").applies("tpdo"),
         check("tpdo-reset", tpdo::over_reset,
             "CiA 301 7.3.2.2.1: After reset communication the event timer is what sub-index 5 says then.").applies("tpdo").needs("reset"),
-        check("tpdo-after-reset", tpdo::after_reset,
+        check("tpdo-after-reset", content::after_reset,
             "CiA 301 7.3.2.2.1: The first TPDOs after a reset have the values that SDO reads.").applies("tpdo").needs("reset"),
         check("mapping-procedure", mapping::procedure,
             "CiA 301 7.5.2.38: A mapping is written by the procedure of CiA 301.").applies("tpdo"),
@@ -440,7 +443,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.38: The mapping of a valid PDO cannot be changed, except to 0 mapped objects.").applies("tpdo"),
         check("mapping-too-many", mapping::too_many,
             "CiA 301 7.5.2.38: More objects than a mapping has entries, and 65 to 253, are refused.").applies("tpdo"),
-        check("mapping-full", tpdo::full,
+        check("mapping-full", content::full,
             "CiA 301 7.5.2.38: Each TPDO carries the values of a mapping that is as long as possible.").applies("tpdo"),
         check("mapping-too-long", mapping::too_long,
             "CiA 301 7.5.2.38: More than 64 bits are refused with 06040042h.").applies("tpdo"),
@@ -803,6 +806,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 406 6030h: Speed and acceleration are 0 while the position stays the same.").applies("cia406, 6004h"),
         check("encoder-speed-factor", encoder::speed_factor,
             "CiA 406 6031h: While the shaft turns, 6030h is multiplied by 6031h:03 and divided by 6031h:04.").applies("cia406, 6030h:01, 6031h:03 rw, 6031h:04 rw"),
+        check("encoder-revolutions", encoder::revolutions,
+            "Manual 001, object 2118h: 2118h is the speed of 6030h in revolutions per minute.").applies("cia406, 2118h, 6030h:01, 6001h, 1018h:02"),
         check("encoder-constants", encoder::constants,
             "CiA 406 6501h: Resolution, revolutions, supported alarms and warnings, and versions are those of the EDS.").applies("cia406"),
         check("encoder-repeat-counter", maker::repeats,

@@ -72,9 +72,47 @@ fn tolerance(dut: &mut Dut<'_>, address: Address, range: u64) -> Checked<u64> {
     Ok(2 + 4 * off[7])
 }
 
-/// The position takes each preset value at once, and a reset keeps neither more nor less.
+/// The position takes each preset value at once, with each code sequence (bit 0 of 6000h).
 pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
-    each(dut, takes)
+    each(dut, takes)?;
+    if !dut.eds.writes(SEQUENCE.index, 0) {
+        return Ok(());
+    }
+    let before = dut.keep(SEQUENCE)?;
+    let mut other = before.clone();
+    if let Some(first) = other.first_mut() {
+        *first ^= 1;
+    }
+    if dut.download(SEQUENCE, &other)?.is_err() {
+        return Ok(());
+    }
+    let done = each(dut, takes);
+    if matches!(done, Err(End::Lost(_))) {
+        return done;
+    }
+    dut.write(SEQUENCE, &before)?;
+    done
+}
+
+const SEQUENCE: Address = Address::new(0x6000, 0);
+
+/// EAM links the objects of one sensor with those of its first channel (manual 001).
+fn links(dut: &mut Dut<'_>) -> Checked {
+    let pairs = [((0x6003, 0), (0x6010, 1)), ((0x6509, 0), (0x650C, 1))];
+    for ((index, sub), (other, channel)) in pairs {
+        let [one, other] = [Address::new(index, sub), Address::new(other, channel)];
+        let has = |address: Address| dut.eds.entry(address.index, address.sub).is_some();
+        if has(one) && has(other) {
+            let (is, wanted) = (at(dut, other)?, at(dut, one)?);
+            let done = ensure(
+                is == wanted,
+                format!("{wanted} in {other}, as in {one}"),
+                format!("{is} was read"),
+            );
+            dut.fault(done)?;
+        }
+    }
+    Ok(())
 }
 
 /// Tests each preset object of a shaft at rest, and puts back the position.
@@ -159,7 +197,11 @@ fn takes(dut: &mut Dut<'_>, of: Preset, range: u64) -> Checked {
     let done = of
         .offset
         .map_or(Ok(()), |offset| follows(offset, &offsets, near, range));
-    dut.fault(done)
+    dut.fault(done)?;
+    if maker::is_of(dut, &[maker::EAM]).is_ok() {
+        links(dut)?;
+    }
+    Ok(())
 }
 
 /// An offset changes as much as the preset value; its sign is that of the manufacturer.

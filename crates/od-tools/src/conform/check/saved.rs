@@ -3,10 +3,10 @@
 use od_model::{Address, values};
 use od_wire::nmt::Command;
 
+use super::content::carries_values;
 use super::each_rpdo::{Changed, outputs, takes, valid, with_another};
 use super::mapping::on;
 use super::store::command;
-use super::tpdo::carries_values;
 use super::transmit::{Tpdo, is_on, timed_on};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
