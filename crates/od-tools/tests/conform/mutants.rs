@@ -79,6 +79,8 @@ fn is_lasting(case: &str) -> bool {
         "object-default",
         "lss",
         "heartbeat-saved",
+        "heartbeat-consumer-saved",
+        "guarding-saved",
         "nmt-self-start",
         "sync-saved",
         "sdo-clients",

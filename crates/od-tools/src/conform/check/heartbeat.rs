@@ -146,7 +146,7 @@ pub(super) fn states(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// A node ID without a node, for the node under test to monitor.
-fn watched(dut: &Dut<'_>) -> u8 {
+pub(super) fn watched(dut: &Dut<'_>) -> u8 {
     if dut.node.raw() == 100 { 101 } else { 100 }
 }
 
@@ -313,7 +313,7 @@ pub(super) fn consumer_pre_operational(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// One heartbeat, and EMCY 8130h after the heartbeat time.
-fn reports_silence(dut: &mut Dut<'_>, node: u8, millis: u64) -> Checked {
+pub(super) fn reports_silence(dut: &mut Dut<'_>, node: u8, millis: u64) -> Checked {
     beat(dut, node)?;
     let from = dut.now();
     match emcy(dut, 0x8130, (millis + 800) * 1000)? {
@@ -463,7 +463,7 @@ pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// Guards the node once; silence is a failure.
-fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
+pub(super) fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
     match dut.guarded()? {
         Some(state) => Ok(state),
         None => fail("a response to node guarding within 100 ms", "none came"),
@@ -471,7 +471,7 @@ fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
 }
 
 /// Heartbeat and guarding exclude each other; the heartbeat has priority.
-fn without_heartbeat(dut: &mut Dut<'_>) -> Checked {
+pub(super) fn without_heartbeat(dut: &mut Dut<'_>) -> Checked {
     if dut.eds.writes(0x1017, 0) {
         dut.set(PRODUCER, &[0, 0])
     } else {

@@ -1,15 +1,16 @@
-//! PDOs that were saved are in use after a reset.
+//! PDOs and times of error control that were saved are in use after a reset.
 
 use od_model::{Address, values};
 use od_wire::nmt::Command;
 
 use super::content::carries_values;
 use super::each_rpdo::{Changed, outputs, takes, valid, with_another};
+use super::heartbeat::{emcy, guarded, reports_silence, sends_emcy, watched, without_heartbeat};
 use super::mapping::on;
 use super::store::command;
 use super::transmit::{Tpdo, is_on, timed_on};
-use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
+use crate::conform::dut::{Dut, is_data};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 
 /// CAN-ID and mapping of each TPDO are saved, and used after the reset.
 pub(super) fn tpdos(dut: &mut Dut<'_>) -> Checked {
@@ -168,4 +169,87 @@ pub(super) fn rpdos(dut: &mut Dut<'_>) -> Checked {
         any,
         "no RPDO is on with a mapping that can be written and is saved, by the EDS",
     )
+}
+
+/// Saves these values, and runs a test after each reset, of values that only the memory has; then the earlier values are
+/// saved again.
+fn after_save(
+    dut: &mut Dut<'_>,
+    values: &[(Address, &[u8])],
+    test: impl Fn(&mut Dut<'_>) -> Checked,
+) -> Checked {
+    let mut before = Vec::new();
+    for (address, _) in values {
+        let entry = dut.eds.entry(address.index, address.sub);
+        if !entry.is_some_and(|entry| entry.access.writable() && entry.group.covered_by(1)) {
+            return lacks(format!("1010h:01 does not save {address}, by the EDS"));
+        }
+        before.push((*address, dut.read(*address)?));
+    }
+    let write = |dut: &mut Dut<'_>| {
+        let each = |(address, bytes): &(Address, Vec<u8>)| dut.write(*address, bytes);
+        before.iter().try_for_each(each)
+    };
+    for (address, bytes) in values {
+        dut.write(*address, bytes)?;
+    }
+    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        for reset in [Command::ResetNode, Command::ResetCommunication] {
+            write(dut)?;
+            dut.reset(reset)?;
+            test(dut)?;
+        }
+        Ok(())
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    write(dut)?;
+    command(dut, 0x1010, 1, b"save")?;
+    done
+}
+
+/// A heartbeat time.
+pub(super) fn heartbeat(dut: &mut Dut<'_>) -> Checked {
+    after_save(dut, &[(Address::new(0x1017, 0), &[100, 0])], |dut| {
+        let id = dut.id(0x700);
+        match dut.next(1_000_000, |frame| is_data(frame, id) && frame.data() != [0])? {
+            Some(_) => Ok(()),
+            None => fail(
+                "a heartbeat within 1 s of the boot-up, as 1017h = 100 was saved",
+                "none came",
+            ),
+        }
+    })
+}
+
+/// A node to monitor, which then misses its heartbeat.
+pub(super) fn consumer(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
+    let node = watched(dut);
+    let entry = [200, 0, node, 0];
+    after_save(dut, &[(Address::new(0x1016, 1), &entry)], |dut| {
+        reports_silence(dut, node, 200)
+    })
+}
+
+/// A guard time and a life time factor.
+pub(super) fn guarding(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
+    without_heartbeat(dut)?;
+    let times: [(Address, &[u8]); 2] = [
+        (Address::new(0x100C, 0), &[100, 0]),
+        (Address::new(0x100D, 0), &[2]),
+    ];
+    after_save(dut, &times, |dut| {
+        without_heartbeat(dut)?;
+        guarded(dut)?;
+        match emcy(dut, 0x8130, 600_000)? {
+            Some(_) => guarded(dut).map(drop),
+            None => fail(
+                "EMCY 8130h within 600 ms of the last request, as 100Ch = 100 and 100Dh = 2 were saved",
+                "none came",
+            ),
+        }
+    })
 }

@@ -5,9 +5,9 @@ use od_wire::AbortCode::{Length, LocalControl, NotStored, TooShort};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
-use crate::conform::dut::{Dut, is_data};
+use crate::conform::dut::Dut;
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, lacks};
 use crate::conform::sdo::{abort_text, number};
 
 /// Time after the response to a save, since a node may still be writing, in microseconds.
@@ -580,37 +580,6 @@ pub(super) fn load_after_reset(dut: &mut Dut<'_>) -> Checked {
     }
     dut.reset(Command::ResetNode)?;
     done.and(bring_back(dut, &before))
-}
-
-/// A saved heartbeat time is active after a reset.
-pub(super) fn heartbeat_saved(dut: &mut Dut<'_>) -> Checked {
-    let address = Address::new(0x1017, 0);
-    let is_saved = dut
-        .eds
-        .entry(0x1017, 0)
-        .is_some_and(|entry| entry.group.covered_by(1));
-    if !is_saved {
-        return lacks("1010h:01 does not save 1017h, by the EDS");
-    }
-    let before = dut.read(address)?;
-    dut.write(address, &[100, 0])?;
-    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
-        dut.reset(Command::ResetNode)?;
-        let id = dut.id(0x700);
-        match dut.next(1_000_000, |frame| is_data(frame, id) && frame.data() != [0])? {
-            Some(_) => Ok(()),
-            None => fail(
-                "a heartbeat within 1 s of the boot-up, as 1017h = 100 was saved",
-                "none came",
-            ),
-        }
-    });
-    if let Err(End::Lost(_)) = done {
-        return done;
-    }
-    dut.write(address, &before)?;
-    command(dut, 0x1010, 1, b"save")?;
-    done
 }
 
 /// The period and the counter of SYNC are saved.
