@@ -172,9 +172,13 @@ class BenchCase(unittest.TestCase):
             time.sleep(0.01)
 
 
-def exported(device, folder=Path(tempfile.mkdtemp(prefix="odkit-eds-"))):
+# Removed when Python ends.
+EDS_FOLDER = tempfile.TemporaryDirectory(prefix="odkit-eds-")
+
+
+def exported(device):
     """The EDS that `odkit export` writes for a device, once for all tests."""
-    path = folder / f"{device}.eds"
+    path = Path(EDS_FOLDER.name) / f"{device}.eds"
     if not path.exists():
         subprocess.run([odkit(), "export", device, "-o", path], check=True)
     return path
