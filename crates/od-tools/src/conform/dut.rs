@@ -47,6 +47,8 @@ pub struct Dut<'d> {
     pub(crate) silence: u64,
     /// Faults so far in a case that tests all its objects: expected and actual behaviour.
     pub(crate) faults: Vec<(String, String)>,
+    /// Number of `frames` when the first of them was found.
+    pub(crate) found: Option<usize>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,
     /// Whether the case waited for anything but SDO responses: it then depends on the time at which the test did what it
@@ -193,6 +195,7 @@ impl Dut<'_> {
     pub(crate) fn fault(&mut self, done: Checked) -> Checked {
         match done {
             Err(End::Fail { expected, got }) => {
+                self.found.get_or_insert(self.frames.len());
                 self.faults.push((expected, got));
                 Ok(())
             }

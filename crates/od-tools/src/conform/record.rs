@@ -79,6 +79,8 @@ pub struct Record {
     pub notes: Vec<String>,
     /// Every frame, in order.
     pub frames: Vec<Traced>,
+    /// Number of the frames until the first failure was found; with the others, the case ends and puts values back.
+    pub found: usize,
     /// Duration, in microseconds of the link's clock.
     pub micros: u64,
 }

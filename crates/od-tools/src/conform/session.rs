@@ -210,6 +210,7 @@ impl<'s> Session<'s> {
             fresh: self.simulated.map(|(_, fresh)| fresh),
             silence: 0,
             faults: Vec::new(),
+            found: None,
             is_off: false,
             is_timed: false,
             late: 0,
@@ -267,6 +268,7 @@ impl<'s> Session<'s> {
             result = Err(End::Skip(why));
         }
         let (notes, frames) = (dut.notes, dut.frames);
+        let found = dut.found.unwrap_or(frames.len());
         let own = dut.late.max(self.rig.host_late());
         self.busy = own.max(self.busy / 2);
         // A frame that is missing for so much longer than the test was late was not sent.
@@ -292,6 +294,7 @@ impl<'s> Session<'s> {
             },
             notes,
             frames,
+            found,
             micros: self.rig.now().micros_since(from),
         };
         (record, trust)

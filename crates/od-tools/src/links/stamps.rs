@@ -4,8 +4,9 @@ use od_wire::Instant;
 
 /// A difference to the time of arrival, in microseconds, that no transport causes: the other clock was set.
 const STEP: i64 = 5_000_000;
-/// Greatest difference of the rates of two clocks, in parts per million.
-const DRIFT: i64 = 200;
+/// Time in microseconds for which the smallest difference counts at least, and half of the time for which it counts at
+/// most. In this time a clock that is wrong by 100 ppm gains or loses 1 ms at most.
+const WINDOW: i64 = 5_000_000;
 
 /// Time at which an adapter or a server received a frame, by its own clock.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -18,11 +19,54 @@ pub(super) struct Stamp {
 
 /// Translates the stamps of one clock.
 ///
-/// A frame can only arrive late: the smallest difference between arrival and stamp so far is that of the two clocks.
+/// A frame can only arrive late: the smallest difference between arrival and stamp is that of the two clocks. Only the last
+/// seconds count, since no two clocks have the same rate, and the clock of a simulator that did not run is behind.
 #[derive(Default)]
 pub(super) struct Stamps {
-    /// Difference of the clocks in microseconds, and the last arrival.
-    known: Option<(i64, i64)>,
+    known: Option<Known>,
+}
+
+/// Differences of the clocks, in microseconds.
+#[derive(Clone, Copy)]
+struct Known {
+    /// Arrival of the first frame of this window.
+    since: i64,
+    /// The smallest difference in this window.
+    smallest: i64,
+    /// The smallest difference in the window before.
+    before: i64,
+}
+
+impl Known {
+    fn new(arrival: i64, difference: i64) -> Self {
+        Self {
+            since: arrival,
+            smallest: difference,
+            before: difference,
+        }
+    }
+
+    fn offset(&self) -> i64 {
+        self.smallest.min(self.before)
+    }
+
+    /// With the difference of a frame that arrived now.
+    fn with(self, arrival: i64, difference: i64) -> Self {
+        let age = arrival - self.since;
+        if difference - self.offset() > STEP || age > 2 * WINDOW {
+            Self::new(arrival, difference)
+        } else if age > WINDOW {
+            Self {
+                before: self.smallest,
+                ..Self::new(arrival, difference)
+            }
+        } else {
+            Self {
+                smallest: self.smallest.min(difference),
+                ..self
+            }
+        }
+    }
 }
 
 impl Stamps {
@@ -30,25 +74,19 @@ impl Stamps {
     pub(super) fn place(&mut self, now: Instant, stamp: Stamp) -> Instant {
         let arrival = signed(now.as_micros());
         let (micros, period) = (signed(stamp.micros), signed(stamp.period));
-        let Some((offset, last)) = self.known else {
-            self.known = Some((arrival - micros, arrival));
+        let Some(known) = self.known else {
+            self.known = Some(Known::new(arrival, arrival - micros));
             return now;
         };
+        // The difference does not include the turns: each stamp gets its own.
         let turns = match period {
             0 => 0,
-            period => (arrival - offset - micros + period / 2).div_euclid(period),
+            period => (arrival - known.offset() - micros + period / 2).div_euclid(period),
         };
         let micros = micros + turns * period;
-        let drift = (arrival - last) * DRIFT / 1_000_000;
-        let difference = arrival - micros;
-        let offset = if difference - offset > STEP {
-            difference
-        } else {
-            difference.min(offset + drift)
-        };
-        // The difference does not include the turns: each stamp gets its own.
-        self.known = Some((offset, arrival));
-        Instant::from_micros(u64::try_from(micros + offset).unwrap_or(0))
+        let known = known.with(arrival, arrival - micros);
+        self.known = Some(known);
+        Instant::from_micros(u64::try_from(micros + known.offset()).unwrap_or(0))
     }
 }
 
@@ -110,10 +148,25 @@ mod tests {
 
     #[test]
     fn a_clock_may_be_slower() {
-        // 100 ppm slower for an hour.
-        let frames: Vec<_> = (0..36_000).map(|n| (n * 100 - n / 100, n * 100)).collect();
+        // 100 ppm slower for an hour, with a frame every 100 ms or every 2 ms.
+        for pause in [100, 2] {
+            let frames = (0..3_600_000 / pause).map(|n| n * pause);
+            let frames: Vec<_> = frames.map(|now| (now - now / 10_000, now)).collect();
+            let at = placed(0, &frames);
+            assert!(at.iter().zip(&frames).all(|(at, (_, now))| now - at <= 2));
+        }
+    }
+
+    /// A simulator that the computer did not run for 60 ms continues with the time before.
+    #[test]
+    fn a_clock_may_stop_for_a_while() {
+        let frames: Vec<_> = (0..600)
+            .map(|n| (n * 50 - u64::from(n >= 100) * 60, n * 50))
+            .collect();
         let at = placed(0, &frames);
-        assert!(at.iter().zip(&frames).all(|(at, (_, now))| now - at <= 1));
+        assert_eq!(at[99], 4950);
+        assert_eq!(at[100], 4940);
+        assert_eq!(at[350], 17_500);
     }
 
     #[test]

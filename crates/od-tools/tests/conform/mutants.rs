@@ -251,6 +251,29 @@ fn every_official_case_is_covered() {
     assert!(missing.is_empty(), "{missing:?}");
 }
 
+/// The frames of a report lead to the failure. `sdo-upload-sizes` reads further objects after it.
+#[test]
+fn a_failure_is_found_at_its_frame() {
+    let record = Bench::new("ds301").run("sdo-upload-sizes", "from 581#4B 17 10 *: set 0=4F");
+    assert!(record.verdict.is_fail(), "{:?}", record.verdict);
+    let frames: Vec<String> = record
+        .frames
+        .iter()
+        .map(|one| one.frame.to_string())
+        .collect();
+    let (before, after) = frames.split_at(record.found);
+    assert!(
+        before
+            .last()
+            .is_some_and(|one| one.starts_with("581#4F1710")),
+        "{before:?}"
+    );
+    assert!(
+        after.iter().any(|one| one.starts_with("601#40")),
+        "{after:?}"
+    );
+}
+
 /// A behaviour that CiA 305 leaves open is a remark, and the case passes.
 #[test]
 fn a_fastscan_that_ends_early_is_a_remark() {

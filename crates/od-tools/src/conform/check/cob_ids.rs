@@ -51,12 +51,15 @@ pub(super) fn highest(dut: &mut Dut<'_>) -> Checked {
                 notes: Vec::new(),
                 silence: 0,
                 faults: Vec::new(),
+                found: None,
                 fresh: None,
                 ..*dut
             };
             let from = other.now();
             let done = other.booted(from).and_then(|()| here(&mut other));
             let (frames, notes, faults) = (other.frames, other.notes, other.faults);
+            let found = other.found.map(|found| dut.frames.len() + found);
+            dut.found = dut.found.or(found);
             dut.frames.extend(frames);
             dut.notes.extend(notes);
             dut.faults.extend(faults);

@@ -1,6 +1,6 @@
 //! Checks the EDS itself, and whether it describes the node.
 
-use od_eds::Document;
+use od_eds::{Document, Eds as Words, say};
 use od_model::{Address, values};
 
 use crate::conform::dut::Dut;
@@ -21,13 +21,16 @@ pub(super) fn no_errors(dut: &mut Dut<'_>) -> Checked {
             let place = first
                 .span()
                 .map_or(String::new(), |span| format!(" in line {}", span.line));
+            let why = say(first, &Words).message;
             fail(
                 "an EDS without errors",
-                format!(
-                    "{} errors, the first {}{place}; `odkit check` shows them",
-                    errors.len(),
-                    first.code()
-                ),
+                match errors.len() {
+                    1 => format!("{}{place}: {why}", first.code()),
+                    number => format!(
+                        "{number} errors, the first {}{place}: {why}; `odkit check` shows them",
+                        first.code()
+                    ),
+                },
             )
         }
     }

@@ -122,6 +122,9 @@ pub(super) fn millis(micros: u64) -> String {
     format!("{}.{:03} ms", micros / 1000, micros % 1000)
 }
 
+/// Line between the frames of a failed case.
+const FOUND: &str = "-- the failure was found here --";
+
 /// Frames in words, by the EDS.
 pub(super) struct Narrator {
     devices: Vec<VirtualDevice>,
@@ -161,15 +164,16 @@ impl Narrator {
             .to_string()
     }
 
-    /// The lines of all frames of a case.
+    /// The lines of all frames of a case; of a failed one with a line where the failure was found.
     pub(super) fn lines(&mut self, record: &Record) -> Vec<String> {
         // A transfer does not continue in the next case.
         self.decoder = Decoder::default();
-        record
-            .frames
-            .iter()
-            .map(|traced| self.line(traced))
-            .collect()
+        let frames = record.frames.iter();
+        let mut lines: Vec<String> = frames.map(|traced| self.line(traced)).collect();
+        if record.verdict.is_fail() && record.found < lines.len() {
+            lines.insert(record.found, FOUND.into());
+        }
+        lines
     }
 }
 

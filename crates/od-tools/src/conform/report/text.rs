@@ -5,7 +5,7 @@ use od_model::Visible;
 use super::run::{Narrator, Report, millis, source};
 use crate::conform::record::{Record, Verdict};
 
-/// Number of the last frames of a failed case that are shown.
+/// Number of the last frames before a failure that are shown.
 const SHOWN: usize = 12;
 
 pub(super) fn render(report: &Report) -> String {
@@ -71,10 +71,10 @@ fn details(record: &Record, narrator: &mut Narrator, lines: &mut Vec<String>) {
             lines.push(format!("             clause    {}", source(record)));
             lines.push(format!("             expected  {expected}"));
             lines.push(format!("             but       {got}"));
-            let from = record.frames.len().saturating_sub(SHOWN);
             let frames = narrator.lines(record);
+            let found = &frames[..record.found];
             lines.extend(
-                frames[from..]
+                found[found.len().saturating_sub(SHOWN)..]
                     .iter()
                     .map(|line| format!("             {line}")),
             );
