@@ -49,42 +49,128 @@ fn has_values(
         format!("{} bytes, as mapped", bits.div_ceil(8)),
         format!("{} came", frame),
     )?;
-    let carried = number(frame.data());
-    let mut shift = 0;
-    for (mapped, (before, after)) in all.iter().zip(before.iter().zip(after)) {
-        let mask = if mapped.bits >= 64 {
-            u64::MAX
-        } else {
-            (1 << mapped.bits) - 1
-        };
-        let is = carried.checked_shr(shift).unwrap_or(0) & mask;
-        shift += mapped.bits as u32;
+    let sent = fields(frame, all);
+    for ((mapped, is), (before, after)) in all.iter().zip(sent).zip(before.iter().zip(after)) {
+        let mask = mask_of(mapped);
         if let (Some(before), Some(after)) = (before, after)
             && before == after
         {
             ensure(
                 is == before & mask,
                 format!("{before:X}h of {} in the TPDO", mapped.address),
-                format!("{is:X}h in {}", frame),
+                format!("{is:X}h in {frame}"),
             )?;
         }
     }
     Ok(())
 }
 
-/// Gives other values to the mapped objects that a master can write.
-fn change(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+/// Gives other values to the mapped objects that a master can write, and returns them.
+fn change(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked<Vec<Address>> {
     let entries = dut.eds.writable();
+    let mut changed = Vec::new();
     for one in mapping(dut, pdo.map())? {
         if !entries.iter().any(|entry| entry.address == one.address) {
             continue;
         }
         dut.keep(one.address)?;
         let mut other = dut.read(one.address)?;
-        other.iter_mut().for_each(|byte| *byte ^= 1);
-        let _ = dut.download(one.address, &other)?;
+        // A value that has not been there before.
+        if let Some(first) = other.first_mut() {
+            *first = first.wrapping_add(1);
+        }
+        if dut.download(one.address, &other)?.is_ok() {
+            changed.push(one.address);
+        }
     }
-    Ok(())
+    Ok(changed)
+}
+
+/// With type 252 a value that changes after SYNC is not in the TPDO before the next one.
+fn keeps_sample(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize, before: &[Option<u64>]) -> Checked {
+    let all = mapping(dut, pdo.map())?;
+    let changed = change(dut, pdo)?;
+    dut.wait(20_000)?;
+    dut.ask_for(pdo.id(), len as u8)?;
+    let Some(heard) = next(dut, pdo, QUIET)? else {
+        return Ok(());
+    };
+    let is_changed = |mapped: &Mapped| changed.contains(&mapped.address);
+    let values = all.iter().zip(before);
+    let sample: Vec<Option<u64>> = values
+        .map(|(mapped, value)| value.filter(|_| is_changed(mapped)))
+        .collect();
+    has_values(&heard.frame, &all, &sample, &sample)
+}
+
+/// A value that goes on changing, such as the position of a turning shaft, changes in the TPDO, too.
+pub(super) fn moving(dut: &mut Dut<'_>) -> Checked {
+    const ROUNDS: usize = 6;
+    learn_sync(dut)?;
+    on_each(dut, |dut, pdo, _| {
+        let all = mapping(dut, pdo.map())?;
+        let mut any = false;
+        for by_sync in [false, true] {
+            if by_sync {
+                dut.keep(pdo.address(2))?;
+                if dut.download(pdo.address(2), &[1])?.is_err() {
+                    continue;
+                }
+            } else if let Err(other) = timed_on(dut, pdo, 50) {
+                match other {
+                    End::NotApplicable(_) => continue,
+                    other => return Err(other),
+                }
+            }
+            dut.nmt(Command::Start)?;
+            let (mut read_values, mut sent) = (Vec::new(), Vec::new());
+            for _ in 0..ROUNDS {
+                dut.wait(20_000)?;
+                read_values.push(read(dut, &all)?);
+                if by_sync {
+                    sync(dut)?;
+                }
+                if let Some(heard) = next(dut, pdo, 200_000)? {
+                    sent.push(fields(&heard.frame, &all));
+                }
+            }
+            dut.nmt(Command::EnterPreOperational)?;
+            for (at, mapped) in all.iter().enumerate() {
+                let moves = read_values
+                    .windows(2)
+                    .all(|pair| pair[0][at] != pair[1][at]);
+                any |= moves;
+                let is_same = sent.iter().all(|values| values[at] == sent[0][at]);
+                if moves && is_same && sent.len() == ROUNDS {
+                    let expected = format!(
+                        "another value of {} in each TPDO{}, as SDO reads",
+                        mapped.address,
+                        pdo.com - 0x17FF
+                    );
+                    let got = format!("it had {:X}h each time", sent[0][at]);
+                    dut.fault(fail(expected, got))?;
+                }
+            }
+        }
+        at_least_one(any, "no value of a TPDO goes on changing")
+    })
+}
+
+/// The bits of a mapped value.
+fn mask_of(mapped: &Mapped) -> u64 {
+    u64::MAX >> (64 - mapped.bits.clamp(1, 64))
+}
+
+/// The values in a frame, in the order of the mapping.
+fn fields(frame: &Frame, all: &[Mapped]) -> Vec<u64> {
+    let carried = number(frame.data());
+    let mut shift = 0;
+    let field = |mapped: &Mapped| {
+        let value = carried.checked_shr(shift).unwrap_or(0) & mask_of(mapped);
+        shift += mapped.bits as u32;
+        value
+    };
+    all.iter().map(field).collect()
 }
 
 /// By SYNC and by remote frame, too, a TPDO has the values of its objects: with type 252 those at the last SYNC.
@@ -118,6 +204,10 @@ pub(super) fn sampled(dut: &mut Dut<'_>) -> Checked {
                     let after = read(dut, &all)?;
                     let done = has_values(&heard.frame, &all, &before, &after);
                     dut.fault(done)?;
+                    if kind == 252 {
+                        let done = keeps_sample(dut, pdo, len, &before);
+                        dut.fault(done)?;
+                    }
                 }
             }
             dut.nmt(Command::EnterPreOperational)?;

@@ -302,8 +302,10 @@ fn keeps_times(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
         ),
     );
     dut.nmt(Command::EnterPreOperational)?;
+    let synchronous = without_inhibit(dut, pdo);
     switch(dut, &before)?;
     done?;
+    synchronous?;
     if before.iter().any(|byte| *byte != 0) {
         return Ok(());
     }
@@ -316,4 +318,29 @@ fn keeps_times(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     );
     dut.nmt(Command::EnterPreOperational)?;
     done
+}
+
+/// The inhibit time is that of the types 254 and 255: with type 1 the TPDO comes with each SYNC.
+fn without_inhibit(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    if dut.download(pdo.address(2), &[1])?.is_err() {
+        return Ok(());
+    }
+    dut.nmt(Command::Start)?;
+    dut.wait(QUIET)?;
+    let mut count = 0;
+    for _ in 0..5 {
+        dut.drain()?;
+        sync(dut)?;
+        count += u8::from(next(dut, pdo, 20_000)?.is_some());
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    event_driven(dut, pdo)?;
+    ensure(
+        count == 5,
+        format!(
+            "TPDO{} with each of 5 SYNC messages in 100 ms, as type 1 has no inhibit time",
+            pdo.com - 0x17FF
+        ),
+        format!("{count} came"),
+    )
 }

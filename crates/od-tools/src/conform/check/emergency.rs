@@ -272,6 +272,20 @@ fn clears_once(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// NMT reset node ends an error: 1001h has no bit of it, and it is reported when it occurs again.
+pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
+    let before = dut.number(0x1001, 0)?;
+    provoked(dut)?;
+    dut.reset(Command::ResetNode)?;
+    let after = dut.number(0x1001, 0)?;
+    ensure(
+        after == before,
+        format!("1001h = {before:02X}h after NMT reset node, as before the error"),
+        format!("{after:02X}h was read"),
+    )?;
+    provoked(dut).map(drop)
+}
+
 /// An error sends one message, and its end another one.
 pub(super) fn once(dut: &mut Dut<'_>) -> Checked {
     let (node, _) = provoked(dut)?;

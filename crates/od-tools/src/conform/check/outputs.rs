@@ -9,7 +9,7 @@ use od_wire::nmt::Command;
 
 use super::heartbeat::{beat, watch};
 use super::maker::{IO, is_of};
-use super::transmit::{is_on, mapping};
+use super::transmit::{Tpdo, is_on, learn_sync, mapping, next, sync, typed_on};
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 
@@ -137,15 +137,21 @@ fn all(dut: &mut Dut<'_>, index: u16) -> Checked<Vec<u8>> {
 
 /// The CAN-ID of an event-driven TPDO with this object.
 fn event_of(dut: &mut Dut<'_>, index: u16, sub: u8) -> Checked<u16> {
+    let pdo = event_driven_of(dut, index, sub)?;
+    Ok(pdo.id().as_standard().unwrap_or_default())
+}
+
+fn event_driven_of(dut: &mut Dut<'_>, index: u16, sub: u8) -> Checked<Tpdo> {
     for pdo in dut.eds.pdos(0x1800) {
         let cob_id = dut.number(0x1800 + pdo, 1)? as u32;
         let kind = dut.number(0x1800 + pdo, 2)?;
         let is_mapped = mapping(dut, 0x1A00 + pdo)?
             .iter()
             .any(|one| one.address == Address::new(index, sub));
-        let id = CobId::new(cob_id).can_id().as_standard();
-        if let Some(id) = id.filter(|_| is_on(cob_id) && is_mapped && kind >= 0xFE) {
-            return Ok(id);
+        let has_id = CobId::new(cob_id).can_id().as_standard().is_some();
+        if is_on(cob_id) && has_id && is_mapped && kind >= 0xFE {
+            let com = 0x1800 + pdo;
+            return Ok(Tpdo { com, cob_id });
         }
     }
     lacks(format!("no event-driven TPDO has {index:04X}h:{sub:02X}"))
@@ -347,6 +353,39 @@ pub(super) fn edge_masks(dut: &mut Dut<'_>) -> Checked {
             }
         }
         Ok(())
+    })
+}
+
+/// With transmission type 0 an input that changed sends its TPDO with the next SYNC.
+pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
+    let wires = Wire::find(dut)?;
+    learn_sync(dut)?;
+    each(dut, wires, |dut, wire| {
+        let pdo = event_driven_of(dut, 0x6000, wire.input.sub)?;
+        let kept = dut.undo.len();
+        if dut.eds.writes(0x6005, 0) {
+            dut.set(Address::new(0x6005, 0), &[1])?;
+        }
+        typed_on(dut, &pdo, 0)?;
+        dut.nmt(Command::Start)?;
+        for _ in 0..2 {
+            sync(dut)?;
+            dut.wait(QUIET)?;
+            wire.output.toggle(dut, 0x6200)?;
+            dut.wait(REACTION)?;
+            dut.drain()?;
+            sync(dut)?;
+            if next(dut, &pdo, QUIET)?.is_none() {
+                let expected = format!(
+                    "TPDO{} with the SYNC after an input changed, with transmission type 0",
+                    pdo.com - 0x17FF
+                );
+                return fail(expected, "none came");
+            }
+            let id = pdo.id().as_standard().unwrap_or_default();
+            shows_inputs(dut, id)?;
+        }
+        dut.put_back_since(kept)
     })
 }
 

@@ -304,6 +304,24 @@ pub(super) fn producer_cob_id(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
+/// The period goes on while a master writes other objects.
+pub(super) fn producer_undisturbed(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut, PERIOD)?;
+    let id = CobId::new(raw).can_id();
+    let from = dut.frames.len();
+    let done = super::tpdo::writes_others(dut, 0, 600_000);
+    let sent = dut.frames.get(from..).unwrap_or_default().iter();
+    let count = sent.filter(|one| !one.ours && one.frame.id() == id).count();
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    done?;
+    ensure(
+        count >= 9,
+        "a SYNC message every 50 ms while a master writes the values of other objects again",
+        format!("{count} came in 600 ms"),
+    )
+}
+
 /// No SYNC with the period 0, and none without bit 30.
 pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
     let raw = produce(dut, PERIOD)?;

@@ -12,7 +12,7 @@ use super::transmit::{
     Tpdo, first, gaps, learn_sync, mapping, next, none, starts_silent, sync, timed, timed_on,
     timer_gaps, typed, typed_on,
 };
-use crate::conform::dut::{Dut, FREE, QUIET};
+use crate::conform::dut::{Dut, FREE, QUIET, is_data};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 
 pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
@@ -94,6 +94,9 @@ fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u16) -> Checked {
     typed_on(dut, pdo, kind)?;
     starts_silent(dut, pdo)?;
     none(dut, pdo, 200_000, "no TPDO without SYNC")?;
+    // With a counter, SYNC messages of the test do not have the right length.
+    let counts = dut.eds.has(0x1019) && dut.number(0x1019, 0)? != 0;
+    let from = dut.frames.len();
     // A TPDO that comes rarely does not need as much time after each SYNC.
     let pause = if kind > 10 { 5_000 } else { 30_000 };
     let mut came = Vec::new();
@@ -109,6 +112,16 @@ fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u16) -> Checked {
         if number > 0 {
             came.push((turn, number));
         }
+    }
+    let id = dut.id(0x80);
+    let mut sent = dut.frames.get(from..).unwrap_or_default().iter();
+    let emcy = sent.find(|one| !one.ours && is_data(&one.frame, id));
+    if let Some(emcy) = emcy.filter(|_| !counts) {
+        let got = format!("{} came", emcy.frame);
+        return fail(
+            "no EMCY message with SYNC messages of the right length",
+            got,
+        );
     }
     let kind = u16::from(kind);
     let wanted = count / kind;
@@ -286,6 +299,55 @@ pub(super) fn rtr_other_node(dut: &mut Dut<'_>) -> Checked {
         QUIET,
         "no response to a remote frame for another node",
     )
+}
+
+/// The event timer goes on while a master writes other objects.
+pub(super) fn undisturbed(dut: &mut Dut<'_>) -> Checked {
+    on_each(dut, |dut, pdo, _| {
+        timed_on(dut, pdo, 100)?;
+        dut.nmt(Command::Start)?;
+        next(dut, pdo, 500_000)?;
+        let from = dut.frames.len();
+        writes_others(dut, pdo.com, 600_000)?;
+        let sent = dut.frames.get(from..).unwrap_or_default().iter();
+        let count = sent
+            .filter(|one| !one.ours && pdo.carries(&one.frame))
+            .count();
+        ensure(
+            count >= 4,
+            format!(
+                "TPDO{} every 100 ms while a master writes the values of other objects again",
+                pdo.com - 0x17FF
+            ),
+            format!("{count} came in 600 ms"),
+        )
+    })
+}
+
+/// Writes the own values of objects of communication for this time, but none of the parameter `except`.
+pub(super) fn writes_others(dut: &mut Dut<'_>, except: u16, micros: u64) -> Checked {
+    let is_one = |address: &Address| match address.index {
+        0x1017 => true,
+        index @ 0x1800..=0x19FF => index != except && address.sub == 5,
+        _ => false,
+    };
+    let entries = dut.eds.writable();
+    let own: Vec<Address> = entries.iter().map(|entry| entry.address).collect();
+    let mut values = Vec::new();
+    for address in own.into_iter().filter(is_one).take(4) {
+        values.push((address, dut.read(address)?));
+    }
+    if values.is_empty() {
+        return lacks("the EDS has no other object to write");
+    }
+    let end = dut.now().plus_micros(micros);
+    while dut.now() < end {
+        for (address, bytes) in &values {
+            let _ = dut.download(*address, bytes)?;
+        }
+        dut.wait(20_000)?;
+    }
+    Ok(())
 }
 
 /// With event timer 0 the node sends a TPDO only because of events.
