@@ -272,17 +272,20 @@ fn clears_once(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// NMT reset node ends an error: 1001h has no bit of it, and it is reported when it occurs again.
+/// A reset ends an error of the communication: 1001h has no bit of it, and it is reported when it occurs again.
 pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
-    let before = dut.number(0x1001, 0)?;
-    provoked(dut)?;
-    dut.reset(Command::ResetNode)?;
-    let after = dut.number(0x1001, 0)?;
-    ensure(
-        after == before,
-        format!("1001h = {before:02X}h after NMT reset node, as before the error"),
-        format!("{after:02X}h was read"),
-    )?;
+    for command in [Command::ResetNode, Command::ResetCommunication] {
+        let before = dut.number(0x1001, 0)?;
+        provoked(dut)?;
+        dut.reset(command)?;
+        let after = dut.number(0x1001, 0)?;
+        let done = ensure(
+            after == before,
+            format!("1001h = {before:02X}h after the NMT reset, as before the error"),
+            format!("{after:02X}h was read"),
+        );
+        dut.fault(done)?;
+    }
     provoked(dut).map(drop)
 }
 

@@ -134,6 +134,7 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
             return lacks("the axis follows its demand so closely that no window is too small");
         }
         let (wide, narrow) = (4 * greatest, greatest / 4);
+        let before = dut.number(0x1001, 0)?;
         for (window, time) in [(wide, 0), (narrow, 0), (narrow, TIME)] {
             if time > 0 && !has_time {
                 continue;
@@ -168,7 +169,18 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
                 let done = axis.is_code_of_emcy(dut, from, code);
                 dut.fault(done)?;
             }
+            if axis.value(dut, 0x6041)? as u64 & FAULT.1 == FAULT.2 {
+                let done = is_reported(dut, from);
+                dut.fault(done)?;
+            }
             axis.recover(dut)?;
+            let after = dut.number(0x1001, 0)?;
+            let done = ensure(
+                after == before,
+                format!("1001h = {before:02X}h after the reset of a fault, as before it"),
+                format!("{after:02X}h was read"),
+            );
+            dut.fault(done)?;
             axis.comes_to(dut, 0x60F4, 0, narrow / 2, "after the end of the error")?;
             axis.enable(dut)?;
         }
@@ -184,6 +196,19 @@ struct Stray {
     apart: i64,
     /// Milliseconds from the moment at which the error was beyond the window to bit 13 or a fault; `None` without them.
     error_after: Option<i64>,
+}
+
+/// A fault in Operational causes an EMCY message, if the node has any.
+fn is_reported(dut: &mut Dut<'_>, from: usize) -> Checked {
+    if !dut.eds.has(0x1014) || dut.number(0x1014, 0)? as u32 >> 31 != 0 {
+        return Ok(());
+    }
+    dut.wait(100_000)?;
+    let id = dut.id(0x80);
+    let mut came = dut.frames.get(from..).unwrap_or_default().iter();
+    let is_one = came
+        .any(|one| !one.ours && is_data(&one.frame, id) && !one.frame.data().starts_with(&[0, 0]));
+    ensure(is_one, "an EMCY message of the fault", "none came")
 }
 
 impl Axis {

@@ -113,3 +113,31 @@ pub(super) fn clocks(dut: &mut Dut<'_>) -> Checked {
     }
     at_least_one(any, "the EDS has neither 2120h nor 2A00h")
 }
+
+/// Numbers of a bit rate, or of the source of a speed or an acceleration, that the manual of a product does not have.
+pub(super) fn choices(dut: &mut Dut<'_>) -> Checked {
+    const RATE: Address = Address::new(0x2100, 0);
+    const SPEED: Address = Address::new(0x6031, 1);
+    const ACCELERATION: Address = Address::new(0x6041, 1);
+    let lists: [(Makers, Address, &[u8]); 6] = [
+        (GX, RATE, &[9, 0xFF]),
+        (EAM, RATE, &[9, 0xFF]),
+        (EN, RATE, &[0, 1, 9, 0xFF]),
+        (EN, SPEED, &[0, 3]),
+        (EN, ACCELERATION, &[0, 3]),
+        (EAM, ACCELERATION, &[0, 3]),
+    ];
+    let mut any = false;
+    for (maker, address, values) in lists {
+        if is_of(dut, &[maker]).is_err() || !dut.eds.writes(address.index, address.sub) {
+            continue;
+        }
+        any = true;
+        dut.keep(address)?;
+        for value in values {
+            let done = dut.cannot_change(address, &[*value], "as the manual does not have it");
+            dut.fault(done)?;
+        }
+    }
+    at_least_one(any, "the object is that of another product")
+}

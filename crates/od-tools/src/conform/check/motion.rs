@@ -1,6 +1,7 @@
 //! CiA 402: the modes of an axis in motion. Each case needs the permission `motion`.
 
 use od_model::Address;
+use od_wire::nmt::Command;
 
 use super::axis::{
     AT_ONCE, Axis, CHANGE, CYCLIC_POSITION, CYCLIC_VELOCITY, DISABLED, ENABLE, ENABLED,
@@ -24,7 +25,14 @@ pub(super) fn enable(dut: &mut Dut<'_>) -> Checked {
             axis.command(dut, word)?;
             axis.shows(dut, CHANGE, state)?;
         }
-        Ok(())
+        if !dut.may_reset {
+            return Ok(());
+        }
+        axis.enable(dut)?;
+        dut.reset(Command::ResetNode)?;
+        let (_, mask, bits) = DISABLED;
+        let after = "Switch on disabled after NMT reset node in Operation enabled,";
+        axis.shows(dut, CHANGE, (after, mask, bits))
     })
 }
 

@@ -364,8 +364,24 @@ pub(super) fn producer_pre_operational(dut: &mut Dut<'_>) -> Checked {
     dut.nmt(Command::EnterPreOperational)?;
     dut.drain()?;
     let id = CobId::new(raw).can_id();
+    let from = dut.frames.len();
     let heard = dut.next(200_000, |frame| frame.id() == id)?;
+    // Its own SYNC triggers no TPDO there.
+    dut.wait(QUIET)?;
     dut.write(COB_ID, &raw.to_le_bytes())?;
+    let sent = dut.frames.get(from..).unwrap_or_default().iter();
+    let sent: Vec<Frame> = sent.filter(|one| !one.ours).map(|one| one.frame).collect();
+    for number in dut.eds.pdos(0x1800) {
+        let cob_id = CobId::new(dut.number(0x1800 + number, 1)? as u32);
+        let is_it = |frame: &&Frame| cob_id.is_valid() && frame.id() == cob_id.can_id();
+        if let Some(frame) = sent.iter().find(is_it) {
+            let got = format!("{frame} came");
+            dut.fault(fail(
+                "no TPDO in Pre-operational, with SYNC of the node",
+                got,
+            ))?;
+        }
+    }
     match heard {
         Some(_) => Ok(()),
         None => fail(
@@ -439,6 +455,7 @@ fn begins_with(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
         dut.nmt(Command::Start)?;
         dut.wait(QUIET)?;
         let mut came = Vec::new();
+        let from = dut.frames.len();
         for count in counts {
             if let Some(frame) = Frame::new(id, &[count]) {
                 dut.send(frame)?;
@@ -449,6 +466,8 @@ fn begins_with(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
         }
         dut.nmt(Command::EnterPreOperational)?;
         dut.write(pdo.address(1), &off)?;
+        let done = super::tpdo::no_emcy_since(dut, from);
+        dut.fault(done)?;
         let done = ensure(
             came == wanted,
             format!(

@@ -113,15 +113,8 @@ fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u16) -> Checked {
             came.push((turn, number));
         }
     }
-    let id = dut.id(0x80);
-    let mut sent = dut.frames.get(from..).unwrap_or_default().iter();
-    let emcy = sent.find(|one| !one.ours && is_data(&one.frame, id));
-    if let Some(emcy) = emcy.filter(|_| !counts) {
-        let got = format!("{} came", emcy.frame);
-        return fail(
-            "no EMCY message with SYNC messages of the right length",
-            got,
-        );
+    if !counts {
+        no_emcy_since(dut, from)?;
     }
     let kind = u16::from(kind);
     let wanted = count / kind;
@@ -131,6 +124,19 @@ fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u16) -> Checked {
         format!("TPDO{} once with every {kind}. SYNC", pdo.com - 0x17FF),
         format!("of {count} SYNCs these had some: {came:?}"),
     )
+}
+
+/// SYNC messages of the right length cause no EMCY message; `from` is the number of a frame.
+pub(super) fn no_emcy_since(dut: &Dut<'_>, from: usize) -> Checked {
+    let id = dut.id(0x80);
+    let mut sent = dut.frames.get(from..).unwrap_or_default().iter();
+    match sent.find(|one| !one.ours && is_data(&one.frame, id)) {
+        Some(emcy) => fail(
+            "no EMCY message with SYNC messages of the right length",
+            format!("{} came", emcy.frame),
+        ),
+        None => Ok(()),
+    }
 }
 
 pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
