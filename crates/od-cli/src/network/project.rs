@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
-    configure, consume_heartbeats, misspelled_key, no_sync, not_mappable, read_only,
-    unusual_bit_rate,
+    configure, consume_heartbeats, key_twice, misspelled_key, no_sync, not_mappable, read_only,
+    unfit_values, unusual_bit_rate,
 };
 use od_eds::{Finding, Span};
 use od_model::Address;
@@ -222,6 +222,41 @@ impl<'a> Section<'a> {
             )
         });
         found.collect()
+    }
+
+    /// The place of what writes an object; that of the name if no setting does.
+    fn place_of_write(&self, address: Address, wanted: &Configuration) -> Span {
+        let of_pdo = |key| {
+            let (number, pdo) = self.pdo_of(key, (address.index & 0x1FF) + 1)?;
+            let is_mapping = address.index & 0x200 != 0;
+            let own = match address.sub {
+                sub if is_mapping => {
+                    let mapping = pdo.get("mapping");
+                    let entries = mapping.map_or(&[][..], Yaml::list);
+                    entries.get(usize::from(sub).wrapping_sub(1)).or(mapping)
+                }
+                1 => pdo.get("cob_id"),
+                2 => pdo.get("transmission"),
+                3 => pdo.get("inhibit_time"),
+                5 => pdo.get("event_timer").or(pdo.get("event_deadline")),
+                6 => pdo.get("sync_start"),
+                _ => None,
+            };
+            Some(own.unwrap_or(number))
+        };
+        let sdo = wanted.sdo.iter().position(|(own, _)| *own == address);
+        let found = match (sdo, address.index) {
+            (Some(at), _) => self.place_of(Setting::Sdo(at)),
+            (_, 0x100C) => self.yaml.get("guard_time"),
+            (_, 0x100D) => self.yaml.get("life_time_factor"),
+            (_, 0x1012) => self.yaml.get("time_cob_id"),
+            (_, 0x1017) => self.yaml.get("heartbeat_producer"),
+            (_, 0x1029) => self.yaml.get("error_behavior"),
+            (_, 0x1400..=0x17FF) => of_pdo("rpdo"),
+            (_, 0x1800..=0x1BFF) => of_pdo("tpdo"),
+            _ => None,
+        };
+        found.map_or(self.yaml.span, |yaml| yaml.span)
     }
 
     /// A number of a key; `None` if the key is missing.
@@ -474,9 +509,11 @@ pub(super) fn read(
     text: &str,
     load: &dyn Fn(&str) -> Result<od_eds::Description, String>,
 ) -> Result<Network, String> {
-    let whole = Yaml::read(text)?;
+    let (whole, twice) = Yaml::read(text)?;
     let mut settings = ProjectSettings::default();
-    let mut findings = Vec::new();
+    let twice = twice.iter();
+    let twice = twice.map(|(key, first)| key_twice(&key.text(), key.span, *first));
+    let mut findings: Vec<Finding> = twice.collect();
     if let Some(yaml) = whole.get("options") {
         let own = Section {
             name: "options",
@@ -548,6 +585,8 @@ pub(super) fn read(
         findings.extend(section.read_only(&node, &wanted));
         (node.place, node.places) = (key.span, section.places());
         configure(&mut node, &wanted, &mut settings).map_err(|unfit| section.unfit(unfit))?;
+        let place = |address| section.place_of_write(address, &wanted);
+        findings.extend(unfit_values(&node, &place));
         nodes.push(node);
     }
     consume_heartbeats(&master, &mut nodes)?;

@@ -42,11 +42,11 @@ impl Yaml {
         }
     }
 
-    /// Reads the first document of a text.
+    /// Reads the first document of a text, and its keys that are given twice: each with the first one.
     ///
     /// # Errors
     /// A sentence with the line, if the text is not YAML or is too large.
-    pub(super) fn read(text: &str) -> Result<Self, String> {
+    pub(super) fn read(text: &str) -> Result<(Self, Vec<(Self, Span)>), String> {
         let mut tree = Tree::default();
         let mut places = Places::new(text);
         for event in Parser::new_from_str(text) {
@@ -64,15 +64,16 @@ impl Yaml {
                 column: start.col() as u32 + 1,
             };
             match tree.take(event, span) {
-                Ok(Some(whole)) => return Ok(whole),
+                Ok(Some(whole)) => return Ok((whole, tree.twice)),
                 Ok(None) => {}
                 Err(why) => return Err(format!("line {}: {why}", span.line)),
             }
         }
-        Ok(Self {
+        let nothing = Self {
             value: Value::Null,
             span: Span::default(),
-        })
+        };
+        Ok((nothing, Vec::new()))
     }
 
     /// The value of a key; `None` if it is missing.
@@ -193,6 +194,7 @@ struct Tree {
     open: Vec<Open>,
     anchors: BTreeMap<usize, Yaml>,
     size: usize,
+    twice: Vec<(Yaml, Span)>,
 }
 
 impl Tree {
@@ -226,7 +228,7 @@ impl Tree {
             Event::SequenceEnd | Event::MappingEnd => match self.open.pop() {
                 Some(open) => {
                     let value = if open.is_map {
-                        map(open.values)?
+                        map(open.values, &mut self.twice)?
                     } else {
                         Value::List(open.values)
                     };
@@ -255,8 +257,8 @@ impl Tree {
 }
 
 /// A mapping from alternating keys and values: the last of equal keys is used, and `<<` adds missing
-/// entries of other mappings.
-fn map(values: Vec<Yaml>) -> Result<Value, String> {
+/// entries of other mappings. Keys that are given `twice` are added there, with the place of the first.
+fn map(values: Vec<Yaml>, twice: &mut Vec<(Yaml, Span)>) -> Result<Value, String> {
     let mut entries = Entries::default();
     let mut merged = Vec::new();
     let mut values = values.into_iter();
@@ -270,6 +272,9 @@ fn map(values: Vec<Yaml>) -> Result<Value, String> {
                 _ => return Err("`<<` needs a mapping".into()),
             }
         } else {
+            if let Some(first) = entries.place(&key) {
+                twice.push((key.clone(), first));
+            }
             entries.set(key, value);
         }
     }
@@ -301,6 +306,12 @@ impl Entries {
 
     fn has(&self, key: &Yaml) -> bool {
         self.places.contains_key(&Self::name(key))
+    }
+
+    /// The place in the text of a key that it has.
+    fn place(&self, key: &Yaml) -> Option<Span> {
+        let (first, _) = self.all.get(*self.places.get(&Self::name(key))?)?;
+        Some(first.span)
     }
 
     /// Sets the value of a key, which is added if it is new.
@@ -413,7 +424,7 @@ mod tests {
     #[test]
     fn aliases_and_merges_are_resolved() {
         let text = ".base: &base {a: 1, b: [1, 2]}\nx:\n  <<: *base\n  a: 3\n  a: 4\n";
-        let whole = Yaml::read(text).expect("YAML");
+        let (whole, _) = Yaml::read(text).expect("YAML");
         let x = whole.get("x").expect("x");
         assert_eq!(x.get("a").and_then(Yaml::integer), Some(4));
         assert_eq!(x.get("b").map(Yaml::size), Some(3));
@@ -430,7 +441,7 @@ mod tests {
     #[test]
     fn values_know_their_places() {
         let text = "# é\na: &x {b: ü, c: 5}\nd:\n  - *x\n  - 7\n";
-        let whole = Yaml::read(text).expect("YAML");
+        let (whole, _) = Yaml::read(text).expect("YAML");
         let place = |yaml: &Yaml| (yaml.span.line, yaml.span.column);
         let c = whole.get("a").and_then(|a| a.get("c")).expect("c");
         assert_eq!(place(c), (2, 17));

@@ -246,7 +246,8 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
     // A setting without effect, and a value that only the device writes.
     let text = format!(
         "master:\n  node_id: 1\n  sync_window: 500\nleft:\n  dcf: {eds}\n  node_id: 5\n\
-         \x20 sdo:\n    - {{index: 0x1016, sub_index: 1, value: 0}}\n    - {{index: 0x1001, value: 0}}\n"
+         \x20 sdo:\n    - {{index: 0x1016, sub_index: 1, value: 0}}\n    - {{index: 0x1001, value: 0}}\n\
+         \x20 tpdo:\n    1:\n      transmission: 245\n    2: {{enabled: false}}\n  node_id: 5\n"
     );
     let (run, _) = network("no-effect", "bus.yml", &text);
     assert_eq!(run.code, 1, "{}", run.err);
@@ -259,6 +260,11 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
             9,
             "E1212]: left: AccessType of 1001h \"Error register\" is `ro`",
         ),
+        (
+            12,
+            "E1214]: left: 1800h:02: transmission type 245 is reserved (W0511)",
+        ),
+        (14, "W1208]: duplicate key `node_id`; dcfgen uses the last"),
     ] {
         let found = run
             .err
@@ -495,6 +501,10 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
         (
             "[Topology]\nNode3Present=1\n",
             "line 2: Node3DCFName is missing",
+        ),
+        (
+            "[Topology]\nNode3Present=1\nNode3DCFName=\n",
+            "line 3: Node3DCFName is empty",
         ),
         (
             "[Topology]\nNode3Present=1\nNode3DCFNam=n4.dcf\n",

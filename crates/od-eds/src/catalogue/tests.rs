@@ -240,6 +240,12 @@ fn faults_of_networks() -> Vec<Finding> {
     found.extend(misspelled);
     found.extend(crate::network::unusual_bit_rate(300, span));
     found.push(crate::network::no_sync("sync_window", span));
+    found.push(crate::network::key_twice("sdo", span, span));
+    let mut reserved = node("e", 4, waiting);
+    let address = od_model::Address::new(0x1800, 2);
+    let write = crate::network::Write::new(address, DataType::Unsigned8, 245);
+    reserved.writes.extend(write);
+    found.extend(crate::network::unfit_values(&reserved, &|_| span));
     let values =
         "[2000]\nDataType=5\nAccessType=ro\nPDOMapping=1\n[2001]\nDataType=5\nAccessType=rw\n";
     let mapping = node("d", 3, values);

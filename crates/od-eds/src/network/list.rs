@@ -157,6 +157,9 @@ fn topology(
             if let Some((present, Some(1..))) = present {
                 let right = format!("Node{id}DCFName");
                 let mut keys = section.pairs.iter().map(|(key, _)| key);
+                if let Some(key) = keys.clone().find(|key| key.eq_ignore_ascii_case(&right)) {
+                    return Err(format!("line {}: {right} is empty", key.span.line));
+                }
                 return Err(match keys.find(|key| meant(key).as_ref() == Some(&right)) {
                     Some(key) => misspelled(key.span.line, key, &right),
                     None => format!("line {}: {right} is missing", present.span.line),

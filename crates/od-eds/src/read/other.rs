@@ -89,9 +89,12 @@ fn unknown_section(placed: &TextSection<'_>, log: &mut Log) {
     });
 }
 
-/// The section of a sub-object that was probably intended: `2005sub3` for `2005sb3`.
+/// The section of an object or a sub-object that was probably intended: `2005sub3` for `2005sb3`, `1017` with a zero for
+/// `1O17` with a letter.
 fn object_section(name: &str) -> Option<String> {
     let (index, rest) = name.split_at_checked(4)?;
+    let digits = index.replace(['O', 'o'], "0").replace(['I', 'l'], "1");
+    let (index, is_digits) = (digits.as_str(), digits == index);
     let word = rest.trim_end_matches(|c: char| c.is_ascii_hexdigit());
     // The `b` of `sub` is a hexadecimal digit.
     let word = if rest[word.len()..].starts_with(['b', 'B']) {
@@ -99,8 +102,11 @@ fn object_section(name: &str) -> Option<String> {
     } else {
         word
     };
-    let sub = u8::from_str_radix(rest.get(word.len()..)?, 16).ok()?;
     let index = u16::from_str_radix(index, 16).ok()?;
+    if rest.is_empty() && !is_digits {
+        return Some(format!("{index:04X}"));
+    }
+    let sub = u8::from_str_radix(rest.get(word.len()..)?, 16).ok()?;
     forms::nearest(word.trim(), ["sub"].into_iter(), 1)?;
     Some(format!("{index:04X}sub{sub:X}"))
 }

@@ -1,7 +1,9 @@
 //! 12: nodes of a network that do not fit together: rules that `network::check` and the readers of networks report.
 
 use alloc::string::String;
+use alloc::vec::Vec;
 
+use crate::catalogue::{Eds, say};
 use crate::finding::{Finding, Form, Rule, Severity::Error};
 use crate::network::BIT_RATES;
 use crate::network::node::{Node, Setting};
@@ -25,6 +27,7 @@ table! {
     W1211 (example)
     E1212 (example)
     W1213 (example)
+    E1214 (example)
 }
 
 pub(crate) static E1201: Rule = Rule {
@@ -278,14 +281,29 @@ pub(crate) fn w1207_bit_rate_differs(file: &Text<'_>, own: u32, first: u32) -> F
 }
 
 pub(crate) static W1208: Rule = Rule {
-    title: "key of a project is probably misspelled",
-    why: "dcfgen ignores the key, and the node keeps the value of its EDS.",
+    title: "key of a project is misspelled or given twice",
+    why: "dcfgen ignores a key that it does not know, and the node keeps the value of its EDS. Of equal keys it uses the last.",
     source: "dcf-tools, dcfgen; ros2_canopen",
     example: "heartbeat_produce: 100",
     says: "{node}: `{given}` is not a key of dcfgen",
     help: "write `{right}`",
+    also: &[TWICE_IN_PROJECT],
     ..Rule::of("W1208")
 };
+
+/// Sentence for a key that the same mapping has before.
+const TWICE_IN_PROJECT: Form = Form {
+    says: "duplicate key `{given}`; dcfgen uses the last",
+    help: "remove one of the two lines",
+};
+
+/// The finding about a key at `span` of a project that its mapping has before at `first`.
+pub fn key_twice(given: &str, span: Span, first: Span) -> Finding {
+    let finding = W1208.at(span).form(&TWICE_IN_PROJECT);
+    finding
+        .fact("given", given)
+        .related(first, "first given here")
+}
 
 /// Returns the finding about a key of a node at `span`, if it looks like one that dcfgen knows.
 pub fn misspelled_key(node: &str, given: &str, known: &[&str], span: Span) -> Option<Finding> {
@@ -409,4 +427,51 @@ pub(crate) static W1213: Rule = Rule {
 /// The finding about a setting of SYNC at `span` of a master that sends no SYNC.
 pub fn no_sync(key: &str, span: Span) -> Finding {
     W1213.at(span).fact("key", key)
+}
+
+pub(crate) static E1214: Rule = Rule {
+    title: "value of a project is not valid for its node",
+    why: "The node aborts the download and the master does not boot it, or the node does not work as intended with the value.",
+    source: "CiA 301 and device profiles, as for the value of an EDS",
+    example: "transmission: 245",
+    says: "{node}: {object}: {why} ({code})",
+    help: "write another value; `odkit explain {code}` explains the rule",
+    ..Rule::of("E1214")
+};
+
+/// The rules about the value of one object, and about values that go together. Those about COB-IDs are not among them:
+/// the nodes of a network are compared with each other.
+const OF_VALUES: [&str; 17] = [
+    "E0414", "E0501", "E0505", "E0509", "E0512", "E0537", "W0511", "W0524", "W0525", "W0535",
+    "W0536", "W0648", "W0649", "W0914", "W0915", "W0917", "W0952",
+];
+
+/// Returns the findings about values that a project writes: those that a check has only with the writes of the node.
+/// `place` gives the place of what writes an object.
+pub fn unfit_values(node: &Node, place: &dyn Fn(Address) -> Span) -> Vec<Finding> {
+    if node.writes.is_empty() {
+        return Vec::new();
+    }
+    let checked = |node: &Node| {
+        let findings = crate::check::check(&node.description).into_iter();
+        let own = findings.filter(|finding| OF_VALUES.contains(&finding.code()));
+        own.filter_map(|finding| Some((finding.code(), finding.object?, finding)))
+            .collect::<Vec<_>>()
+    };
+    let before = checked(node);
+    let mut written = node.clone();
+    written.apply();
+    let new = checked(&written).into_iter().filter(|(code, object, _)| {
+        let mut same = before.iter();
+        !same.any(|(own, of, _)| (own, of) == (code, object))
+    });
+    new.filter_map(|(code, address, found)| {
+        let object = written.description.objects.get(&address.index)?;
+        let finding = E1214.at(place(address)).severity_of(found.severity);
+        let finding = finding.about(address).fact("node", node.name.as_str());
+        let finding = finding.fact("object", shown(object, address));
+        let finding = finding.fact("code", code);
+        Some(finding.fact("why", say(&found, &Eds).message))
+    })
+    .collect()
 }

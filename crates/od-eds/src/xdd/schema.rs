@@ -29,6 +29,12 @@ pub struct Attribute {
     required: bool,
 }
 
+/// The types of the body of a profile.
+const PROFILES: [&str; 2] = [
+    "ProfileBody_Device_CANopen",
+    "ProfileBody_CommunicationNetwork_CANopen",
+];
+
 /// The form of the value of an attribute.
 #[derive(Clone, Copy)]
 pub enum Value {
@@ -602,7 +608,11 @@ pub(super) fn fits(value: Value, text: &str) -> bool {
         |text: &str, length| text.len() == length && text.bytes().all(|byte| byte.is_ascii_digit());
     match value {
         Any | Reference => true,
-        Profile => text.contains("CANopen"),
+        Profile => {
+            let (_, name) = text.split_once(':').unwrap_or(("", text));
+            // A modular device has types of its own.
+            text.contains("CANopen") && near(name, PROFILES.into_iter()).is_none()
+        }
         Words(words) => words.contains(&text),
         Capitals(words) => words.iter().any(|word| word.eq_ignore_ascii_case(text)),
         Flag => matches!(text, "true" | "false" | "0" | "1"),

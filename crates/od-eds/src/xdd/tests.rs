@@ -273,6 +273,7 @@ fn the_class_of_a_profile_is_that_of_its_body() {
     );
     for (class, body, is_right) in [
         ("Device", device, true),
+        ("Device", "ProfileBody_Devise_CANopen", false),
         ("CommunicationNetwork", network, true),
         ("Device", network, false),
         ("CommunicationNetwork", device, false),

@@ -38,6 +38,7 @@ catalogue! {
     w0539_limit_without_flag_bits W0539
     w0540_sdo_with_one_cob_id W0540
     e0541_mpdo_objects E0541
+    w0542_cob_id_of_other_node W0542
 }
 
 pub(crate) mod e0501_mapped_object_missing;
@@ -74,3 +75,4 @@ pub(crate) mod w0536_sync_start_without_counter;
 pub(crate) mod w0538_sdo_client_other_server;
 pub(crate) mod w0539_limit_without_flag_bits;
 pub(crate) mod w0540_sdo_with_one_cob_id;
+pub(crate) mod w0542_cob_id_of_other_node;
