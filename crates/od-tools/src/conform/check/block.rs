@@ -121,11 +121,20 @@ fn read(dut: &mut Dut<'_>, address: Address, mut how: How) -> Checked<Vec<u8>> {
         let right = crc(&bytes);
         let is = u16::from_le_bytes([end[1], end[2]]);
         ensure(is == right, format!("checksum {right:04X}h"), got)?;
+    } else {
+        let is_none = end[1..3] == [0; 2];
+        ensure(
+            is_none,
+            "0 in the bytes 1 and 2, as there is no checksum",
+            got,
+        )?;
     }
     dut.send(Frame::full(
         dut.node.plus(0x600),
         [0xA1, 0, 0, 0, 0, 0, 0, 0],
     ))?;
+    let id = dut.id(0x580);
+    dut.silent(id, 5_000, "no response to the end of a block upload")?;
     match size {
         Some(size) if size != bytes.len() => fail(
             format!("{size} bytes, as announced"),

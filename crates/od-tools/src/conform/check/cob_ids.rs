@@ -5,7 +5,7 @@ use od_wire::nmt::Command;
 use od_wire::{AbortCode, CanId, CobId, Frame, NodeId};
 
 use super::each_tpdo::on_each;
-use super::lss::renumber;
+use super::lss_node_id::renumber;
 use super::transmit::{Tpdo, learn_sync, timed_on};
 use crate::bench::OnBench;
 use crate::conform::dut::{Dut, QUIET, is_data};
@@ -271,6 +271,62 @@ pub(super) fn fixed(dut: &mut Dut<'_>) -> Checked {
     }
     dut.nmt(Command::EnterPreOperational)?;
     at_least_one(any, "no COB-ID that is valid can be written")
+}
+
+/// A service that is not in use can have another CAN-ID, and can be made valid with one in the same write.
+pub(super) fn free(dut: &mut Dut<'_>) -> Checked {
+    /// CAN-IDs that no service has.
+    const OTHERS: [u32; 2] = [0x4F5, 0x4F6];
+    const NOT_VALID: u32 = 1 << 31;
+    let clocks = [0x1005, 0x1012].map(|index| Address::new(index, 0));
+    let clocks = clocks
+        .into_iter()
+        .filter(|one| dut.eds.writes(one.index, 0));
+    let all: Vec<Address> = with_bit_31(dut).into_iter().chain(clocks).collect();
+    let mut any = false;
+    for address in all {
+        let before = number(&dut.keep(address)?) as u32;
+        let cob_id = CobId::new(before);
+        if cob_id.is_valid() && (cob_id.is_restricted() || !cob_id.is_consistent()) {
+            continue;
+        }
+        let is_clock = matches!(address.index, 0x1005 | 0x1012);
+        // Without the bits that make the node a producer, or the service valid.
+        let (off, flags) = if is_clock {
+            (before & 0x7FF, 0)
+        } else {
+            (before | NOT_VALID, before & 1 << 30)
+        };
+        let [one, other] = OTHERS.map(|id| flags | id);
+        let wanted = if is_clock {
+            vec![one, other]
+        } else {
+            vec![one | NOT_VALID, other, other | NOT_VALID, off]
+        };
+        let mut written = wanted.iter().chain([&off]);
+        let excludes = |value: &u32| dut.eds.excludes(address, &value.to_le_bytes(), dut.node);
+        if written.any(|value| excludes(value).is_some())
+            || dut.download(address, &off.to_le_bytes())?.is_err()
+        {
+            continue;
+        }
+        any = true;
+        for value in &wanted {
+            let bytes = value.to_le_bytes();
+            let done = match dut.download(address, &bytes)? {
+                Ok(()) => dut.is_as_written(address, &bytes),
+                Err(code) => fail(
+                    format!(
+                        "{} in {address}, whose service is not in use, to be written",
+                        values::hex(&bytes)
+                    ),
+                    format!("{} came", abort_text(code)),
+                ),
+            };
+            dut.fault(done)?;
+        }
+    }
+    at_least_one(any, "no COB-ID can be written")
 }
 
 /// Each TPDO with a CAN-ID of 29 bits is sent with it, or the node refuses bit 29.

@@ -142,7 +142,10 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
     let id = dut.id(0x700);
     let keeps = dut.next_of(id, 1_000_000)?.is_some();
     let done = if keeps {
-        lacks("the node keeps its node ID")
+        fail(
+            "no boot-up message, as node ID 255 was accepted, with which the node has none",
+            "the node keeps its node ID",
+        )
     } else {
         scan(dut, all)
     };
@@ -169,10 +172,11 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
         };
         dut.send(Frame::standard(MASTER, &request.emit()))?;
         if dut.next_of(id, 5_000_000)?.is_none() {
-            return done.and(fail(
+            dut.fault(fail(
                 "the boot-up message with the node ID from LSS",
                 "none came",
-            ));
+            ))?;
+            return done;
         }
         dut.times.boots.push(dut.now().micros_since(from));
     }

@@ -17,6 +17,7 @@ mod homing;
 mod identify;
 mod kept;
 mod lss;
+mod lss_node_id;
 mod lss_states;
 mod maker;
 mod mapping;
@@ -656,6 +657,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.3.5: With node ID 127, set by LSS, no service has such a CAN-ID either.").needs("reset"),
         check("cob-id-access", cob_ids::access,
             "CiA 306-1: A writable COB-ID of the EDS accepts its own value."),
+        check("cob-id-free", cob_ids::free,
+            "CiA 301 7.5.2.37: The CAN-ID of a PDO, EMCY, SYNC or TIME that is not in use can be changed, and the service made valid with it."),
         check("cob-id-fixed", cob_ids::fixed,
             "CiA 301 7.5.2.37: The CAN-ID of a valid PDO, EMCY or further SDO server cannot be changed."),
         check("cob-id-extended", cob_ids::extended,
@@ -939,7 +942,9 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
     ]),
     // If the node is not found again, all later cases would fail.
     ("LSS", &[
-        check("lss-store-node-id", lss::store_node_id,
+        check("lss-node-id-taken", lss_node_id::taken,
+            "CiA 305 6.4.2: A node ID that was configured is in use after reset communication, and the defaults follow it.").applies("lss").needs("reset"),
+        check("lss-store-node-id", lss_node_id::store_node_id,
             "CiA 305 6.4.5: A stored node ID is there after a start.").applies("lss").needs("reset, store"),
         check("lss-fastscan", identify::fastscan,
             "CiA 305 6.7: A node without a node ID is found bit by bit.").applies("lss").needs("reset"),
