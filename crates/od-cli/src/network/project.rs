@@ -407,6 +407,40 @@ impl<'a> Section<'a> {
         })
     }
 
+    /// The node, with the writes of its settings; what is wrong with the settings is added to the findings.
+    fn node(
+        &self,
+        load: &dyn Fn(&str) -> Result<od_eds::Description, String>,
+        settings: &mut ProjectSettings,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Node, String> {
+        let name = self.name;
+        let line = self.line_of("dcf");
+        let path = self
+            .text("dcf")
+            .ok_or_else(|| format!("line {line}: {name}: the key `dcf` is missing"))?;
+        let description =
+            load(&path).map_err(|why| format!("line {line}: {name}: {path}: {why}"))?;
+        let id = self
+            .node_id()?
+            .or(description.commissioned_node_id())
+            .filter(|id| (1..=127).contains(id));
+        let Some(id) = id else {
+            let line = self.line;
+            return Err(format!(
+                "line {line}: {name}: the node ID is missing; add `node_id`, 1 to 127"
+            ));
+        };
+        let mut node = Node::new(name.into(), id, description);
+        let wanted = self.configuration()?;
+        findings.extend(self.unmapped(&node, &wanted));
+        findings.extend(self.read_only(&node, &wanted));
+        configure(&mut node, &wanted, settings).map_err(|unfit| self.unfit(unfit))?;
+        let place = |address| self.place_of_write(address, &wanted);
+        findings.extend(unfit_values(&node, &place));
+        Ok(node)
+    }
+
     fn master(&self, settings: &ProjectSettings) -> Result<Master, String> {
         let default = Master::default();
         let number = |key, default: u32| Ok::<u32, String>(self.number(key)?.unwrap_or(default));
@@ -563,30 +597,8 @@ pub(super) fn read(
         let misspelled = section.misspelled_of_slave().into_iter();
         let is_new = |own: &Finding| own.span().is_none_or(|span| seen.insert(span.start));
         findings.extend(misspelled.filter(is_new));
-        let line = section.line_of("dcf");
-        let path = section
-            .text("dcf")
-            .ok_or_else(|| format!("line {line}: {name}: the key `dcf` is missing"))?;
-        let description =
-            load(&path).map_err(|why| format!("line {line}: {name}: {path}: {why}"))?;
-        let id = section
-            .node_id()?
-            .or(description.commissioned_node_id())
-            .filter(|id| (1..=127).contains(id));
-        let Some(id) = id else {
-            let line = section.line;
-            return Err(format!(
-                "line {line}: {name}: the node ID is missing; add `node_id`, 1 to 127"
-            ));
-        };
-        let mut node = Node::new(name.clone(), id, description);
-        let wanted = section.configuration()?;
-        findings.extend(section.unmapped(&node, &wanted));
-        findings.extend(section.read_only(&node, &wanted));
+        let mut node = section.node(load, &mut settings, &mut findings)?;
         (node.place, node.places) = (key.span, section.places());
-        configure(&mut node, &wanted, &mut settings).map_err(|unfit| section.unfit(unfit))?;
-        let place = |address| section.place_of_write(address, &wanted);
-        findings.extend(unfit_values(&node, &place));
         nodes.push(node);
     }
     consume_heartbeats(&master, &mut nodes)?;

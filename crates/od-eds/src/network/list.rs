@@ -98,11 +98,8 @@ fn is_misspelled(section: &str) -> bool {
     nearest(word, ["Topology"].into_iter(), most).is_some()
 }
 
-fn topology(
-    section: &TextSection<'_>,
-    load: &dyn Fn(&str) -> Result<Description, String>,
-) -> Result<NodeList, String> {
-    let mut log = Log::default();
+/// The keys of each node of a network, by ascending node ID.
+fn listed<'a>(section: &'a TextSection<'_>, log: &mut Log) -> BTreeMap<u8, Listed<'a>> {
     let mut nodes: BTreeMap<u8, Listed<'_>> = BTreeMap::new();
     // The number is decimal; some tools write hexadecimal digits. The first of equal keys is used.
     for is_hex in [false, true] {
@@ -134,7 +131,16 @@ fn topology(
             }
         }
     }
-    let listed = nodes.len();
+    nodes
+}
+
+fn topology(
+    section: &TextSection<'_>,
+    load: &dyn Fn(&str) -> Result<Description, String>,
+) -> Result<NodeList, String> {
+    let mut log = Log::default();
+    let nodes = listed(section, &mut log);
+    let all = nodes.len();
     let mut list = NodeList {
         name: section
             .get("NetName")
@@ -199,7 +205,7 @@ fn topology(
     }
     let count = section.get("Nodes").filter(|count| !count.is_empty());
     // Some tools count the nodes that are not present, too.
-    let counts = [list.nodes.len(), listed].map(|count| Some(count as i128));
+    let counts = [list.nodes.len(), all].map(|count| Some(count as i128));
     if let Some(given) = count
         && !counts.contains(&number(given))
     {
