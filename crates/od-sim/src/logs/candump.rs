@@ -101,7 +101,12 @@ pub(super) fn is_untimed(line: &str) -> bool {
 /// Reads a line in any of the three forms, including error frames.
 pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
     let mut rest = Cursor::new(line);
-    let at = if rest.peek().starts_with('(') {
+    // A time of day without parentheses is not the name of an interface.
+    let is_time = |word: &str| {
+        word.starts_with('(')
+            || word.starts_with(|c: char| c.is_ascii_digit()) && word.contains(':')
+    };
+    let at = if is_time(rest.peek()) {
         Some(time_stamp(&mut rest)?)
     } else {
         None

@@ -15,6 +15,7 @@ mod read;
 mod record;
 pub(crate) mod stamp;
 mod trc;
+mod typed;
 mod write;
 
 pub use read::{Log, read};

@@ -7,7 +7,7 @@ use od_wire::Instant;
 
 use super::pcap::Capture;
 use super::record::{Entry, Reader, Record, Unread, What};
-use super::{adapters, asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc};
+use super::{adapters, asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc, typed};
 use crate::cursor::Cursor;
 
 /// A log that was read.
@@ -31,7 +31,8 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 const HEAD: usize = 200;
 
 /// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng; CSV of SavvyCAN, CL2000, CANedge, Kvaser or IXXAT; what
-/// python-can prints, Kvaser CanKing, or Kvaser Memorator (text); lines of slcan or socketcand; commands of `cansend`.
+/// python-can prints, Kvaser CanKing, or Kvaser Memorator (text); lines of slcan or socketcand; commands of `cansend`;
+/// frames as people type them, such as `0x601: 40 00 10 00 00 00 00 00`.
 ///
 /// # Errors
 /// The reason why it is not a log, or the first line if no line can be read.
@@ -51,19 +52,22 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     }
     let text = plain(&decoded(bytes));
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
-    let lacks_times = is_untimed(&lines);
-    let Some((mut reader, is_candump)) = choose(&lines, lacks_times) else {
-        let why = if text.trim().is_empty() {
-            "it is empty: no frame was recorded".into()
-        } else {
-            let known = foreign::name(bytes);
-            known.unwrap_or_else(|| {
-                "it is not a candump log, ASC, BLF, TRC, CSV, slcan, pcap or pcapng; SavvyCAN opens many other logs and saves \
-                 them as a candump log"
-                    .into()
-            })
-        };
-        return Err(why.into());
+    let mut lacks_times = is_untimed(&lines);
+    let (mut reader, is_candump) = match choose(&lines, lacks_times) {
+        Some(chosen) => chosen,
+        None if text.trim().is_empty() => return Err("it is empty: no frame was recorded".into()),
+        None => {
+            if let Some(known) = foreign::name(bytes) {
+                return Err(known.into());
+            }
+            if !typed::is_one(lines.iter().take(HEAD).copied()) {
+                return Err("it is not a candump log, ASC, BLF, TRC, CSV, slcan, pcap or pcapng; SavvyCAN opens many other \
+                            logs and saves them as a candump log"
+                    .into());
+            }
+            lacks_times = typed::is_untimed(&lines);
+            (typed::reader(), false)
+        }
     };
     let mut records = Vec::new();
     let mut skipped = Vec::new();

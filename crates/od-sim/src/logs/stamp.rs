@@ -37,10 +37,7 @@ pub(crate) fn date(text: &str) -> Option<u64> {
     let year = number(date.next()?, 1970..=9999)?;
     let month = number(date.next()?, 1..=12)?;
     let day = number(date.next()?, 1..=31)?;
-    let mut time = time.splitn(3, ':');
-    let hour = number(time.next()?, 0..=23)?;
-    let minute = number(time.next()?, 0..=59)?;
-    let second = seconds(time.next()?).filter(|micros| *micros < 61_000_000)?;
+    let time = time_of_day(time)?;
     if date.next().is_some() {
         return None;
     }
@@ -50,8 +47,16 @@ pub(crate) fn date(text: &str) -> Option<u64> {
         _ => (year, month - 3),
     };
     let days = year * 365 + year / 4 - year / 100 + year / 400 + (month * 153 + 2) / 5 + day - 1;
-    let minutes = ((days - DAYS_TO_1970) * 24 + hour) * 60 + minute;
-    Some(minutes * 60_000_000 + second)
+    Some((days - DAYS_TO_1970) * 86_400_000_000 + time)
+}
+
+/// Microseconds from midnight to `15:50:01.123456`.
+pub(crate) fn time_of_day(text: &str) -> Option<u64> {
+    let mut parts = text.splitn(3, ':');
+    let hour = number(parts.next()?, 0..=23)?;
+    let minute = number(parts.next()?, 0..=59)?;
+    let second = seconds(parts.next()?).filter(|micros| *micros < 61_000_000)?;
+    Some((hour * 60 + minute) * 60_000_000 + second)
 }
 
 /// Days from 1 March of the year 0 to 1 January 1970.
