@@ -555,12 +555,15 @@ pub(super) fn guarding_states(dut: &mut Dut<'_>) -> Checked {
         (Command::EnterPreOperational, 0x7F),
     ] {
         dut.nmt(command)?;
-        let state = guarded(dut)? & 0x7F;
-        ensure(
-            state == wanted,
-            format!("state {wanted:02X}h"),
-            format!("{state:02X}h came"),
-        )?;
+        // With each toggle bit.
+        for _ in 0..2 {
+            let state = guarded(dut)? & 0x7F;
+            ensure(
+                state == wanted,
+                format!("state {wanted:02X}h"),
+                format!("{state:02X}h came"),
+            )?;
+        }
     }
     Ok(())
 }
