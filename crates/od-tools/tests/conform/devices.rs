@@ -11,10 +11,13 @@ use od_wire::NodeId;
 
 use crate::simulated::alone;
 
-/// Runs every case on a device that was just switched on.
-fn run(device: VirtualDevice, text: &str) -> Report {
+/// Runs every case on a device that was just switched on, whose shaft turns with this number of revolutions per minute.
+fn run(device: VirtualDevice, text: &str, rpm: f64) -> Report {
     let node = device.node_id();
-    let bus = alone(device);
+    let mut bus = alone(device);
+    if rpm > 0.0 {
+        bus.with(0, |device, now| device.set_rpm(rpm, now));
+    }
     let eds = Eds::read(text);
     let mut rig = OnBench(bus);
     let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);
@@ -31,17 +34,27 @@ fn run(device: VirtualDevice, text: &str) -> Report {
     }
 }
 
-#[test]
-fn the_twelve_devices_pass() {
+fn all_pass(rpm: f64) {
     let mut wrong = String::new();
     for kind in od_devices::DEVICES {
         let node = NodeId::new(5).expect("a node ID");
         let device = VirtualDevice::new(kind, node).with_node_switch();
-        let report = run(device, &od_devices::text::eds(kind));
+        let report = run(device, &od_devices::text::eds(kind), rpm);
         if !report.is_pass() {
             wrong += &report.render(Format::Text);
             wrong.push('\n');
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn the_twelve_devices_pass() {
+    all_pass(0.0);
+}
+
+/// A shaft that turns changes positions between any two readings.
+#[test]
+fn the_twelve_devices_pass_while_they_turn() {
+    all_pass(10.0);
 }
