@@ -36,8 +36,8 @@ struct Module {
     /// Its package, and its library.
     package: (&'static str, &'static str),
     /// Optimisation options of wasm-opt, `None` for the profile that compiles quickly. Functions sorted by their names
-    /// make the core 1 % smaller after gzip, since those of one type are neighbours. Sections that only tools read are
-    /// removed.
+    /// make the core 1 % smaller after gzip, since those of one type are neighbours, and a second pass 0.6 %. Sections that
+    /// only tools read are removed.
     level: Option<&'static str>,
     what: &'static str,
 }
@@ -52,7 +52,7 @@ const WHOLE: Module = Module {
 const CORE: Module = Module {
     folder: "core",
     package: PAGE_CORE,
-    level: Some("-Oz --reorder-functions-by-name --strip-producers --strip-target-features"),
+    level: Some("-Oz -Oz --reorder-functions-by-name --strip-producers --strip-target-features"),
     what: "compiling what the page begins with",
 };
 

@@ -91,7 +91,11 @@ pub(super) fn is_record(line: &str) -> bool {
 /// of such frames is named.
 pub(super) fn is_untimed(line: &str) -> bool {
     match logged(line) {
-        Ok(line) => line.at.is_none(),
+        Ok(line) => {
+            // A time of day without parentheses is not the name of an interface.
+            let is_time = |name| stamp::time_of_day(name).is_some();
+            line.at.is_none() && !line.interface.is_some_and(is_time)
+        }
         Err(problem) => {
             problem.message.ends_with(" a CAN FD frame") && !line.trim_start().starts_with('(')
         }
@@ -101,12 +105,7 @@ pub(super) fn is_untimed(line: &str) -> bool {
 /// Reads a line in any of the three forms, including error frames.
 pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
     let mut rest = Cursor::new(line);
-    // A time of day without parentheses is not the name of an interface.
-    let is_time = |word: &str| {
-        word.starts_with('(')
-            || word.starts_with(|c: char| c.is_ascii_digit()) && word.contains(':')
-    };
-    let at = if is_time(rest.peek()) {
+    let at = if rest.peek().starts_with('(') {
         Some(time_stamp(&mut rest)?)
     } else {
         None
