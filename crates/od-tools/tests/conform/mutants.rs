@@ -274,6 +274,18 @@ fn a_failure_is_found_at_its_frame() {
     );
 }
 
+/// A node need not make a PDO valid that has no objects; CANopenNode does not.
+#[test]
+fn a_pdo_without_objects_need_not_be_valid() {
+    let mut bench = Bench::new("ds301");
+    let refuses = "to 601#23 00 18 01 F6 04 00 00: reply 581#80 00 18 01 30 00 09 06";
+    let is_empty = "from 581#4F 00 1A 00 *: set 4=00";
+    let record = bench.run("cob-id-free", refuses);
+    assert!(record.verdict.is_fail(), "{:?}", record.verdict);
+    let record = bench.run("cob-id-free", &format!("{refuses} ; {is_empty}"));
+    assert!(record.verdict.is_pass(), "{:?}", record.verdict);
+}
+
 /// A behaviour that CiA 305 leaves open is a remark, and the case passes.
 #[test]
 fn a_fastscan_that_ends_early_is_a_remark() {

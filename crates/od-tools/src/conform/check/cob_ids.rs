@@ -300,6 +300,8 @@ pub(super) fn free(dut: &mut Dut<'_>) -> Checked {
         let [one, other] = OTHERS.map(|id| flags | id);
         let wanted = if is_clock {
             vec![one, other]
+        } else if maps_nothing(dut, address.index)? {
+            vec![one | NOT_VALID, other | NOT_VALID, off]
         } else {
             vec![one | NOT_VALID, other, other | NOT_VALID, off]
         };
@@ -327,6 +329,15 @@ pub(super) fn free(dut: &mut Dut<'_>) -> Checked {
         }
     }
     at_least_one(any, "no COB-ID can be written")
+}
+
+/// Returns whether this is the communication parameter of a PDO without objects: a node need not make it valid.
+fn maps_nothing(dut: &mut Dut<'_>, index: u16) -> Checked<bool> {
+    if !matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF) {
+        return Ok(false);
+    }
+    let count = dut.upload(Address::new(index + 0x200, 0))?;
+    Ok(count.is_ok_and(|count| count == [0]))
 }
 
 /// Each TPDO with a CAN-ID of 29 bits is sent with it, or the node refuses bit 29.
