@@ -132,6 +132,7 @@ fn id(word: &str) -> Option<CanId> {
         Some(digits) => digits.len() > 2,
         None => digits.len() == 3 || digits.len() == 8,
     };
+    let is_one = is_one && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
     let raw = u32::from_str_radix(digits, 16).ok().filter(|_| is_one)?;
     match raw {
         0..=0x7FF if digits.len() < 8 => Some(CanId::standard(raw as u16)),
@@ -261,6 +262,7 @@ mod tests {
             "601 8 4000",
             "100 200 300",
             "fee 12 34",
+            "+12 34 56",
         ] {
             assert!(read(text.as_bytes()).is_err(), "{text}");
         }
