@@ -14,6 +14,13 @@ fn network(name: &str, file: &str, text: &str) -> (Done, PathBuf) {
     (odkit(&["network", &paths[0], "-o", &paths[1]], ""), out)
 }
 
+/// The finding is there, and its place is this line of the project.
+fn is_told_at(err: &str, said: &str, line: u32) {
+    let found = err.find(said).unwrap_or_else(|| panic!("{said}\n{err}"));
+    let place = err[found..].lines().nth(1).unwrap_or_default();
+    assert!(place.contains(&format!("bus.yml:{line}:")), "{err}");
+}
+
 #[test]
 fn concise_dcfs_are_those_of_dcfgen() {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network");
@@ -235,12 +242,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
         ),
         (18, "W1208]: right: `Boot` is not a key of dcfgen"),
     ] {
-        let found = run
-            .err
-            .find(said)
-            .unwrap_or_else(|| panic!("{said}\n{}", run.err));
-        let place = run.err[found..].lines().nth(1).unwrap_or_default();
-        assert!(place.contains(&format!("bus.yml:{line}:")), "{}", run.err);
+        is_told_at(&run.err, said, line);
     }
     assert_eq!(run.err.matches("[W1208]").count(), 4, "{}", run.err);
     // A setting without effect, and a value that only the device writes.
@@ -266,12 +268,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
         ),
         (14, "W1208]: duplicate key `node_id`; dcfgen uses the last"),
     ] {
-        let found = run
-            .err
-            .find(said)
-            .unwrap_or_else(|| panic!("{said}\n{}", run.err));
-        let place = run.err[found..].lines().nth(1).unwrap_or_default();
-        assert!(place.contains(&format!("bus.yml:{line}:")), "{}", run.err);
+        is_told_at(&run.err, said, line);
     }
     assert_eq!(run.err.matches("[E1212]").count(), 1, "{}", run.err);
     let (run, _) = network("master-id", "bus.yml", "master:\n  node_id: 128\n");
