@@ -94,6 +94,27 @@ fn every_report_has_every_case() {
 }
 
 #[test]
+fn a_page_has_a_heading_for_each_group_with_cases_and_a_printed_reason_for_each_skipped_one() {
+    let name = file("conform-skipped.html", "").display().to_string();
+    let only = ["--only", "guarding-answer", "--only", "CiA 401"];
+    let done = odkit(
+        &[&["conform", "gxmm", "--report", &name], &only[..]].concat(),
+        "",
+    );
+    assert_eq!(done.code, 0, "{}{}", done.out, done.err);
+    let page = std::fs::read_to_string(&name).expect("a page");
+    assert!(page.contains(">error control</h2>"), "{page}");
+    // Every case of this group is not applicable.
+    assert!(page.contains("<td>CiA 401</td>"), "{page}");
+    assert!(!page.contains(">CiA 401</h2>"), "{page}");
+    // What is printed of a closed case ends with its summary.
+    let summary = page.split("<summary>").nth(1).expect("a skipped case");
+    let (summary, rest) = summary.split_once("</summary>").expect("its end");
+    assert!(summary.contains("bit 5 of 2110h"), "{summary}");
+    assert!(!rest.contains("<pre></pre>"), "{rest}");
+}
+
+#[test]
 fn the_scripts_of_the_official_cases_are_cases() {
     let folder = repository("tests/conformance/cia");
     let done = odkit(

@@ -10,6 +10,7 @@ body{font:16px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding
 h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2rem}\
 details{border-bottom:1px solid #8884;padding:.3rem 0}summary{cursor:pointer}\
 .v{display:inline-block;width:5.5rem;font-weight:600}\
+.why{margin-left:5.5rem}\
 .pass .v{color:#1a7f37}.fail .v{color:#cf222e}.skipped .v,.na .v{color:#888}\
 code{font-size:.9rem}pre{overflow:auto;background:#8881;padding:.5rem}\
 table{border-collapse:collapse}h2{break-after:avoid}\
@@ -42,13 +43,14 @@ pub(super) fn render(report: &Report) -> String {
     page += "</table>\n<h2>Contents</h2>\n<table>\n<tr><th>Group</th><th>Passed</th><th>Failed</th>\
              <th>Skipped</th><th>Not applicable</th></tr>\n";
     for (number, (group, counts)) in report.by_group().into_iter().enumerate() {
+        let name = escape(group);
+        let name = match counts.pass + counts.skipped {
+            0 => name.into(),
+            _ => format!("<a href=\"#g{number}\">{name}</a>"),
+        };
         page += &format!(
-            "<tr><td><a href=\"#g{number}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            escape(group),
-            counts.pass,
-            counts.fail,
-            counts.skipped,
-            counts.not_applicable
+            "<tr><td>{name}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            counts.pass, counts.fail, counts.skipped, counts.not_applicable
         );
     }
     page += "</table>\n<p><a href=\"#failures\">Failures</a>, <a href=\"#times\">times</a>, \
@@ -69,12 +71,13 @@ pub(super) fn render(report: &Report) -> String {
     }
     page += "</table>\n";
     let is_na = |record: &Record| matches!(record.verdict, Verdict::NotApplicable(_));
-    for (number, (group, records)) in groups(report).into_iter().enumerate() {
+    for (number, (group, mut records)) in groups(report).into_iter().enumerate() {
+        records.retain(|record| !is_na(record) && !record.verdict.is_fail());
+        if records.is_empty() {
+            continue;
+        }
         page += &format!("<h2 id=\"g{number}\">{}</h2>\n", escape(group));
-        for record in records
-            .into_iter()
-            .filter(|record| !is_na(record) && !record.verdict.is_fail())
-        {
+        for record in records {
             page += &case(record, &mut narrator);
         }
     }
@@ -97,23 +100,25 @@ fn case(record: &Record, narrator: &mut Narrator) -> String {
     } else {
         ""
     };
+    // The reason is in the summary: a page of closed cases, as it is printed, tells why one was skipped.
+    let reason = match record.verdict.reason() {
+        reason if reason.is_empty() => reason,
+        reason => format!("<br><span class=\"why\">{}</span>", escape(&reason)),
+    };
     let mut text = format!(
         "<details class=\"{word}\"{open}><summary><span class=\"v\">{word}</span> \
-         <code>{}</code> {}</summary>\n<p>{}",
+         <code>{}</code> {}{reason}</summary>\n<p>{}",
         escape(&record.id),
         escape(&record.title),
         escape(&source(record))
     );
-    let reason = record.verdict.reason();
-    if !reason.is_empty() {
-        text += &format!("<br>{}", escape(&reason));
-    }
     for note in &record.notes {
         text += &format!("<br>{}", escape(note));
     }
-    text += &format!(
-        "</p>\n<pre>{}</pre>\n</details>\n",
-        escape(&narrator.lines(record).join("\n"))
-    );
-    text
+    text += "</p>\n";
+    let frames = narrator.lines(record);
+    if !frames.is_empty() {
+        text += &format!("<pre>{}</pre>\n", escape(&frames.join("\n")));
+    }
+    text + "</details>\n"
 }

@@ -73,7 +73,11 @@ pub(super) fn render(report: &Report) -> String {
         lines.extend(frames.iter().map(|line| Visible(line).line().into_owned()));
         lines.push("```".into());
     }
-    for (group, records) in groups(report) {
+    for (group, mut records) in groups(report) {
+        records.retain(|record| !matches!(record.verdict, Verdict::NotApplicable(_)));
+        if records.is_empty() {
+            continue;
+        }
         lines.push(String::new());
         lines.push(format!("## {}", cell(group)));
         lines.push(String::new());
@@ -82,7 +86,6 @@ pub(super) fn render(report: &Report) -> String {
         for record in records {
             let word = match record.verdict {
                 Verdict::Fail { .. } => "**fail**",
-                Verdict::NotApplicable(_) => continue,
                 _ => record.verdict.word(),
             };
             lines.push(format!(
