@@ -45,7 +45,7 @@ pub(super) fn render(report: &Report) -> String {
     for (number, (group, counts)) in report.by_group().into_iter().enumerate() {
         let name = escape(group);
         let name = match counts.pass + counts.skipped {
-            0 => name.into(),
+            0 => name,
             _ => format!("<a href=\"#g{number}\">{name}</a>"),
         };
         page += &format!(
