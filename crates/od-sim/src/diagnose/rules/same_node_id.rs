@@ -77,6 +77,7 @@ fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
 /// Boot-up messages beyond one for each reset, within a second.
 fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
     let mut signs = Vec::new();
+    let mut from = facts.begin;
     for pair in node.boots.windows(2) {
         let [first, second] = [pair[0], pair[1]];
         let is_near = second.at.micros_since(first.at) < 1_000_000;
@@ -86,10 +87,12 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
         if is_near
             && is_silent
             && facts.commands_to(id, first.at, second.at).next().is_none()
-            && facts.is_reset(id, earliest, first.at)
+            && facts.is_reset(id, earliest.max(from), first.at)
         {
             signs.extend([first, second]);
         }
+        // This boot-up message answers the resets until now.
+        from = first.at.plus_micros(1);
     }
     signs
 }
