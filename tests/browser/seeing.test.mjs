@@ -266,6 +266,20 @@ check('the diagnosis of a log names the faults, their causes and the frames, and
   await becomes('what was found', () => region.getByRole('status').textContent(), /^No fault in 0 frames\./);
 });
 
+check('the diagnosis of a log without times says so, and shows its frames without times', async (page) => {
+  await stopTime(page);
+  const typed = ['0x705: 00', '0x705: 05', '0x601: 40 00 10 00 00 00 00 00', '0x705: 00', '0x705: 05', '0x705: 00'].join('\n');
+  await page.getByLabel('Open log').setInputFiles(file('typed.txt', typed));
+  await page.getByRole('button', { name: 'Replace the capture', exact: true }).click();
+  await becomes('the frames', () => captured(page), 6);
+  await page.getByRole('button', { name: 'Diagnosis', exact: true }).click();
+  const region = page.getByRole('region', { name: 'Diagnosis' });
+  await region.getByText('The frames have no times, so only faults of their order are found.').waitFor();
+  await becomes('the fault', () => region.getByRole('heading').allTextContents(), ['node 5 restarts 2 times without a command']);
+  const shown = await region.getByRole('list', { name: 'Frames that show it' }).getByRole('button').allTextContents();
+  assert.ok(shown.includes('705 00'), shown.join('\n'));
+});
+
 check('the nodes of the bus: state, heartbeat, EMCY and device, from the frames', { hash: '#device=gxmm&node=1&device=gcam&node=6' }, async (page) => {
   await page.getByRole('button', { name: 'Nodes' }).click();
   const table = page.getByRole('region', { name: 'Nodes' });

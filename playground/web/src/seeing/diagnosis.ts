@@ -12,10 +12,11 @@ import { View } from '../views/view';
 import './style';
 import { S } from './texts';
 
-/** A diagnosis: the number of the first frame, the number of frames, and the faults. */
+/** A diagnosis: the number of the first frame, the number of frames, whether they have times, and the faults. */
 interface Found {
   first: number;
   count: number;
+  timed: boolean;
   incidents: Incident[];
 }
 
@@ -40,9 +41,10 @@ class Diagnosis extends View {
     const line = state.line.peek();
     this.found = null;
     this.error = '';
+    const timed = end - first < 2 || state.ring.get(first)?.time !== state.ring.get(end - 1)?.time;
     const answer = await use('diagnose', state.ring.slice(first, end), line?.real ? (line.rate ?? undefined) : undefined);
     if ('error' in answer) this.error = answer.error;
-    else this.found = { first, count: end - first, incidents: answer.value };
+    else this.found = { first, count: end - first, timed, incidents: answer.value };
   }
 
   protected override render() {
@@ -52,11 +54,12 @@ class Diagnosis extends View {
     return html`<div class="diagnosis scroll" tabindex="0" role="region" aria-label=${T.frames.diagnosis}>
       <p class="note" role="status" data-tone=${error ? 'error' : nothing}>${said}
         <button class="small" ?disabled=${!found && !error} @click=${() => void this.look()}>${t.again}</button></p>
-      ${found ? html`<ol>${found.incidents.map((one) => this.incident(one, found.first))}</ol>` : nothing}
+      ${found && !found.timed ? html`<p class="note">${t.untimed}</p>` : nothing}
+      ${found ? html`<ol>${found.incidents.map((one) => this.incident(one, found))}</ol>` : nothing}
     </div>`;
   }
 
-  private incident({ text, span, causes, frames }: Incident, first: number) {
+  private incident({ text, span, causes, frames }: Incident, { first, timed }: Found) {
     void wordsArrived.value;
     const numbers = frames.map((place) => first + place);
     const words = wordsOf(numbers);
@@ -65,15 +68,16 @@ class Diagnosis extends View {
       <h3>${text}</h3>
       <p class="muted num">${span}</p>
       <ol type="a">${causes.map((cause) => html`<li>${cause.text}. <span class="muted"><b>${t.check}:</b> ${cause.check}</span></li>`)}</ol>
-      <ul aria-label=${t.frames}>${numbers.map((number, i) => this.frame(number, words[i] ?? ''))}</ul>
+      <ul aria-label=${t.frames}>${numbers.map((number, i) => this.frame(number, words[i] ?? '', timed))}</ul>
     </li>`;
   }
 
-  private frame(number: number, words: string) {
+  private frame(number: number, words: string, timed: boolean) {
     const frame = state.ring.get(number);
     if (!frame) return html`<li class="muted">${S.diagnosis.gone}</li>`;
     const bytes = frame.disturbed ? '' : `${hexId(frame.id, frame.extended)} ${frame.remote ? T.frames.remote : hexBytes(frame.data)}`;
-    return html`<li><button class="link num" @click=${() => { view.value = 'order'; reveal(number); }}>${(frame.time / 1e6).toFixed(6)} ${bytes}</button> ${words}</li>`;
+    const time = timed ? `${(frame.time / 1e6).toFixed(6)} ` : '';
+    return html`<li><button class="link num" @click=${() => { view.value = 'order'; reveal(number); }}>${time}${bytes}</button> ${words}</li>`;
   }
 }
 

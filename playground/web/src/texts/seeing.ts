@@ -107,6 +107,7 @@ export const seeing = {
     running: 'Looking for faults…',
     found: (count: number, frames: number) => `${count || 'No'} fault${count > 1 ? 's' : ''} in ${frames} frame${frames === 1 ? '' : 's'}.`,
     again: 'Look again',
+    untimed: 'The frames have no times, so only faults of their order are found.',
     check: 'Check',
     frames: 'Frames that show it',
     gone: 'The capture does not contain this frame any more.',

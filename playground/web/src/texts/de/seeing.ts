@@ -110,6 +110,7 @@ export const seeing = {
     running: 'Fehler werden gesucht…',
     found: (count: number, frames: number) => `${count || 'Kein'} Fehler in ${frames} ${frames === 1 ? 'Frame' : 'Frames'}.`,
     again: 'Erneut suchen',
+    untimed: 'Die Frames haben keine Zeiten, deshalb werden nur Fehler ihrer Reihenfolge gefunden.',
     check: 'Prüfen',
     frames: 'Frames, die es zeigen',
     gone: 'Die Aufzeichnung enthält diesen Frame nicht mehr.',
