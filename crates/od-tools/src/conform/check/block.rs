@@ -17,8 +17,10 @@ use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, names, request, r
 #[derive(Clone, Copy)]
 struct How {
     crc: bool,
-    /// Segments in a block.
+    /// Segments in the first block.
     size: u8,
+    /// Segments in each further block.
+    next: u8,
     /// The client treats this segment of the first block as lost.
     lost: Option<u8>,
 }
@@ -26,6 +28,7 @@ struct How {
 const PLAIN: How = How {
     crc: false,
     size: 127,
+    next: 127,
     lost: None,
 };
 
@@ -92,7 +95,7 @@ fn read(dut: &mut Dut<'_>, address: Address, mut how: How) -> Checked<Vec<u8>> {
                 break;
             }
         }
-        how.lost = None;
+        (how.lost, how.size) = (None, how.next);
         dut.send(Frame::full(
             dut.node.plus(0x600),
             [0xA2, good, how.size, 0, 0, 0, 0, 0],
@@ -189,16 +192,19 @@ pub(super) fn upload_crc(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Uploads with a block for each segment.
+/// Uploads with a block for each segment, and with further blocks that are longer or shorter than the first.
 pub(super) fn upload_blocks(dut: &mut Dut<'_>) -> Checked {
-    same(
-        dut,
-        How {
-            size: 1,
+    for (size, next) in [(1, 1), (1, 2), (2, 1)] {
+        let how = How {
             crc: true,
-            ..PLAIN
-        },
-    )
+            size,
+            next,
+            lost: None,
+        };
+        let done = same(dut, how);
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 /// The first segments, each one lost in a transfer of its own.
@@ -235,14 +241,69 @@ pub(super) fn upload_short(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn upload_size_128(dut: &mut Dut<'_>) -> Checked {
     let (address, _) = long_value(dut)?;
+    // A node without block transfers refuses the right sizes, too.
+    read(dut, address, PLAIN)?;
     for size in [128, 0] {
         let answer = dut.answer(request(0xA0, address, [size, 0, 0, 0]))?;
-        if refused(&answer) {
-            return without();
-        }
         is_abort(&answer, &[InvalidBlockSize])?;
     }
     dut.still_serves()
+}
+
+/// Command of the end of a block upload, which has no response.
+const END: u8 = 0xA1;
+
+/// A request that does not belong to this part of a block upload gets an abort or nothing, and the next upload is right.
+pub(super) fn upload_out_of_place(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    read(dut, address, PLAIN)?;
+    let count = bytes.len().div_ceil(7).min(127) as u8;
+    let confirm = [0xA2, count, 127];
+    // Before the start of the upload, after its segments, and after the last confirmation.
+    for (place, wrong) in [
+        (0, confirm),
+        (0, [END, 0, 0]),
+        (1, [0xA3, 0, 0]),
+        (1, [END, 0, 0]),
+        (1, [0x60, 0, 0]),
+        (2, [0xA3, 0, 0]),
+        (2, confirm),
+        (2, [0x60, 0, 0]),
+    ] {
+        let full = |[a, b, c]: [u8; 3]| [a, b, c, 0, 0, 0, 0, 0];
+        begin(dut, address, PLAIN)?;
+        if place > 0 {
+            dut.send(Frame::full(dut.node.plus(0x600), full([0xA3, 0, 0])))?;
+            for _ in 0..count {
+                dut.response(ANSWER)?;
+            }
+        }
+        if place > 1 {
+            dut.answer(full(confirm))?;
+        }
+        if let Some(answer) = dut.ask_within(full(wrong), QUIET)? {
+            let done = ensure(
+                abort_of(&answer).is_some(),
+                format!(
+                    "an abort for {:02X}h {}",
+                    wrong[0],
+                    [
+                        "before the start of a block upload",
+                        "after a block",
+                        "after the last block"
+                    ][place]
+                ),
+                format!("{} came", values::hex(&answer)),
+            );
+            dut.fault(done)?;
+        } else {
+            let close = request(0x80, address, [0, 0, 0, 8]);
+            dut.send(Frame::full(dut.node.plus(0x600), close))?;
+            dut.settle(10_000)?;
+        }
+        carries(dut, address, &bytes, PLAIN)?;
+    }
+    Ok(())
 }
 
 pub(super) fn upload_ack_128(dut: &mut Dut<'_>) -> Checked {
@@ -452,11 +513,19 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     reserved_are_0(dut, end, &[(command, 3)])
 }
 
-/// An abort of the client ends a block upload.
+/// An abort of the client ends a block upload, before its start and after a block. The next one is right.
 pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
+    let with_crc = How { crc: true, ..PLAIN };
     begin(dut, address, PLAIN)?;
-    ended_by_abort(dut, address, &bytes, 0xA3)
+    ended_by_abort(dut, address, &bytes, 0xA3)?;
+    let how = How { size: 1, ..PLAIN };
+    begin(dut, address, how)?;
+    dut.answer([0xA3, 0, 0, 0, 0, 0, 0, 0])?;
+    // As a client that restarts: its abort, and at once the next upload by block.
+    let close = request(0x80, address, [0, 0, 0, 8]);
+    dut.send(Frame::full(dut.node.plus(0x600), close))?;
+    carries(dut, address, &bytes, with_crc)
 }
 
 /// An abort of the client ends a block download, which then wrote nothing.
@@ -487,7 +556,9 @@ pub(super) fn download_aborted(dut: &mut Dut<'_>) -> Checked {
         after == before,
         format!("{address} unchanged, {}", values::hex(&before)),
         format!("{} was read", values::hex(&after)),
-    )
+    )?;
+    // The next block download is right.
+    written(dut, PLAIN)
 }
 
 /// Block transfers are refused as other transfers: of an object that is missing, and a download to one that is read only.

@@ -4,6 +4,7 @@ use od_model::{Address, values};
 use od_wire::nmt::Command;
 use od_wire::{AbortCode, Frame};
 
+use super::transfer::optional;
 use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 
@@ -284,7 +285,21 @@ pub(super) fn consumer_ends(dut: &mut Dut<'_>) -> Checked {
         after == before,
         format!("1001h = {before:02X}h when heartbeats come again, as before the error"),
         format!("{after:02X}h was read"),
-    )
+    )?;
+    // The node follows NMT commands again, whatever its error behaviour was.
+    dut.write(CONSUMER, &[0, 0, node, 0])?;
+    if optional(dut.follow_state())?.is_some() {
+        for (command, state) in [
+            (Command::Start, 5),
+            (Command::Stop, 4),
+            (Command::Start, 5),
+            (Command::EnterPreOperational, 0x7F),
+        ] {
+            dut.nmt(command)?;
+            dut.is_in(state)?;
+        }
+    }
+    Ok(())
 }
 
 /// Heartbeats of another node do not replace those of the monitored one.
@@ -356,6 +371,9 @@ pub(super) fn consumer_twice(dut: &mut Dut<'_>) -> Checked {
         dut.keep(address)?;
         let done = dut.refuses_value(address, &[200, 0, node, 0], &[AbortCode::Incompatible]);
         dut.fault(done)?;
+        // An entry with the time 0 monitors no node.
+        let done = dut.write(address, &[0, 0, node, 0]);
+        dut.fault(done)?;
     }
     Ok(())
 }
@@ -397,16 +415,29 @@ pub(super) fn consumer_each(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// An entry of 1016h with the time 0 monitors no node.
+/// An entry of 1016h with the time 0, or with a node ID above 127, monitors no node.
 pub(super) fn consumer_off(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 0)?;
-    let from = dut.frames.len();
-    dut.nmt(Command::Start)?;
-    beat(dut, node)?;
-    match emcy_since(dut, from, 0x8130, 500_000)? {
-        Some(frame) => fail("no EMCY 8130h with the time 0", format!("{frame} came")),
-        None => Ok(()),
+    for (millis, watched, shown) in [
+        (0, node, "the time 0"),
+        (200, node | 0x80, "a node ID above 127"),
+    ] {
+        // A node may refuse such a node ID.
+        if dut.download(CONSUMER, &[millis, 0, watched, 0])?.is_err() {
+            continue;
+        }
+        let from = dut.frames.len();
+        dut.nmt(Command::Start)?;
+        beat(dut, node)?;
+        if let Some(frame) = emcy_since(dut, from, 0x8130, 500_000)? {
+            let done = fail(
+                format!("no EMCY 8130h with {shown}"),
+                format!("{frame} came"),
+            );
+            dut.fault(done)?;
+        }
     }
+    Ok(())
 }
 
 /// After a reset the node monitors what 1016h has then, from its next heartbeat on.
@@ -675,12 +706,24 @@ pub(super) fn life_guarding_ends(dut: &mut Dut<'_>) -> Checked {
     dut.set(Address::new(0x100C, 0), &[100, 0])?;
     dut.set(Address::new(0x100D, 0), &[2])?;
     dut.nmt(Command::Start)?;
-    guarded(dut)?;
+    // The toggle bit is 0 in the last response before the error, so it must be 1 in the first one after it.
+    if guarded(dut)? & 0x80 != 0 {
+        guarded(dut)?;
+    }
     if emcy(dut, 0x8130, 600_000)?.is_none() {
         return fail("EMCY 8130h within 600 ms of the last request", "none came");
     }
-    for _ in 0..3 {
-        guarded(dut)?;
+    for wanted in [0x80, 0, 0x80] {
+        let state = guarded(dut)?;
+        let done = ensure(
+            state & 0x80 == wanted,
+            format!(
+                "toggle bit {} in the response after the error, since only a reset begins it anew",
+                wanted >> 7
+            ),
+            format!("{state:02X}h came"),
+        );
+        dut.fault(done)?;
         dut.wait(50_000)?;
     }
     let after = dut.number(0x1001, 0)?;

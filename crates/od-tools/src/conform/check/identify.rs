@@ -1,12 +1,14 @@
 //! LSS without a selection: identify remote slave and fastscan.
 
-use od_model::values;
+use od_model::{Address, values};
 use od_wire::Frame;
 use od_wire::lss::{MASTER, Part, Request, SLAVE};
+use od_wire::nmt::Command;
 
 use super::lss::{answers, ask, begin, configured, select, stays_silent, waiting};
-use crate::conform::dut::{Dut, is_data};
+use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::end::{Checked, fail, lacks};
+use crate::conform::sdo::request;
 
 /// Sends the six numbers of identify remote slave; returns the response to the last one.
 fn identified(dut: &mut Dut<'_>, range: [u32; 6]) -> Checked<Option<[u8; 8]>> {
@@ -59,6 +61,34 @@ pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
     let wide = [vendor, product, 0, u32::MAX, 0, u32::MAX];
     if identified(dut, wide)?.is_none() {
         return fail("LSS response 4F to the widest ranges", "none came");
+    }
+    // A sequence that the master broke off does not count.
+    for step in [0, 1] {
+        ask(
+            dut,
+            Request::IdentifyRemote {
+                step,
+                value: right[usize::from(step)],
+            },
+        )?;
+    }
+    if identified(dut, right)?.is_none() {
+        let done = fail(
+            "LSS response 4F after a sequence that was broken off",
+            "none came",
+        );
+        dut.fault(done)?;
+    }
+    // Identification is a service of both LSS states.
+    select(dut, [vendor, product, revision, serial])?;
+    let here = identified(dut, right);
+    waiting(dut)?;
+    if here?.is_none() {
+        let done = fail(
+            "LSS response 4F in the configuration state, as in the waiting state",
+            "none came",
+        );
+        dut.fault(done)?;
     }
     for (place, name) in [(0, "vendor-ID"), (1, "product code")] {
         for bit in [8, 16, 31] {
@@ -117,13 +147,7 @@ pub(super) fn identify_unconfigured(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn fastscan_configured(dut: &mut Dut<'_>) -> Checked {
     begin(dut)?;
-    let request = Request::Fastscan {
-        number: 0,
-        bit: 128,
-        part: 0,
-        next: 0,
-    };
-    stays_silent(dut, request.emit(), "as the node has a node ID")
+    stays_silent(dut, START.emit(), "as the node has a node ID")
 }
 
 /// Fastscan finds a node without a node ID, number by number, and the node gets its node ID back.
@@ -147,7 +171,7 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
             "the node keeps its node ID",
         )
     } else {
-        scan(dut, all)
+        has_only_lss(dut).and_then(|()| scan(dut, all))
     };
     // In any case the node gets its node ID back.
     if keeps {
@@ -207,18 +231,42 @@ fn early_end(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
     waiting(dut)
 }
 
+/// A node without a node ID has no service besides LSS.
+fn has_only_lss(dut: &mut Dut<'_>) -> Checked {
+    let from = dut.frames.len();
+    let all_nodes = Frame::standard(0, &[Command::Start as u8, 0]);
+    let hello = request(0x40, Address::new(0x1000, 0), [0; 4]);
+    dut.send(all_nodes)?;
+    dut.send(Frame::full(dut.node.plus(0x600), hello))?;
+    dut.ask_for(dut.node.plus(0x700), 1)?;
+    dut.wait(QUIET)?;
+    let ids = [0x80, 0x180, 0x580, 0x700].map(|base| dut.id(base));
+    let frames = dut.frames.get(from..).unwrap_or_default().iter();
+    let mut own =
+        frames.filter(|traced| !traced.ours && ids.iter().any(|id| is_data(&traced.frame, *id)));
+    match own.next().map(|traced| traced.frame) {
+        Some(frame) => fail(
+            "LSS only, as the node has no node ID",
+            format!("{frame} came"),
+        ),
+        None => Ok(()),
+    }
+}
+
+/// Asks whether any node without a node ID responds.
+const START: Request = Request::Fastscan {
+    number: 0,
+    bit: 128,
+    part: 0,
+    next: 0,
+};
+
 fn scan(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
-    let start = Request::Fastscan {
-        number: 0,
-        bit: 128,
-        part: 0,
-        next: 0,
-    };
-    if ask(dut, start)?.is_none() {
+    if ask(dut, START)?.is_none() {
         return lacks("the node does not have fastscan");
     }
     early_end(dut, all)?;
-    ask(dut, start)?;
+    ask(dut, START)?;
     for (part, number) in (0..).zip(all) {
         for bit in (0..32u8).rev() {
             // The bits so far are right and this bit is 0, so the node responds if the bit of its
@@ -259,5 +307,23 @@ fn scan(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
         )?;
     }
     // Now it is in the configuration state.
+    answers(dut, Request::Inquire { part: Part::Vendor }, &[0x5A])?;
+    waiting(dut)?;
+    again(dut, all)
+}
+
+/// A second fastscan finds the node, too: it confirms the numbers that the first one found.
+fn again(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
+    answers(dut, START, &[0x4F])?;
+    for (part, number) in (0..).zip(all) {
+        let next = if part == 3 { 0 } else { part + 1 };
+        let request = Request::Fastscan {
+            number,
+            bit: 0,
+            part,
+            next,
+        };
+        answers(dut, request, &[0x4F])?;
+    }
     answers(dut, Request::Inquire { part: Part::Vendor }, &[0x5A])
 }

@@ -154,7 +154,10 @@ pub(super) fn selective_other(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    // The right one selects it afterwards, without switch state global in between.
+    // The right one selects it afterwards, without switch state global in between, and after one that was broken off.
+    for (part, value) in Part::ALL.into_iter().zip(all).take(2) {
+        ask(dut, Request::SwitchSelective { part, value })?;
+    }
     let right = select(dut, all)?;
     waiting(dut)?;
     ensure(

@@ -6,8 +6,9 @@ use od_wire::nmt::Command;
 use od_wire::{Frame, NodeId};
 
 use super::lss::{ask, configured, select, waiting};
+use super::store;
 use crate::conform::dut::{Dut, QUIET, is_data};
-use crate::conform::end::{Checked, ensure, fail, lacks, skip};
+use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
 use crate::conform::sdo::request;
 
 /// A node ID that the node does not have, and no other node on the bus.
@@ -30,9 +31,26 @@ fn another_id(dut: &mut Dut<'_>) -> Checked<NodeId> {
 
 /// A node ID that was configured is in use after reset communication: for SDO, and in each default with $NODEID.
 pub(super) fn taken(dut: &mut Dut<'_>) -> Checked {
+    let saves = dut.eds.has(0x1010);
+    takes(dut, saves)
+}
+
+/// As [`taken`], after a restore: then no saved value hides a default.
+pub(super) fn follows_when_restored(dut: &mut Dut<'_>) -> Checked {
+    let before = store::backup(dut)?;
+    let done = store::command(dut, 0x1011, 1, b"load")
+        .and_then(|()| dut.reset(Command::ResetNode))
+        .and_then(|()| takes(dut, false));
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    done.and(store::bring_back(dut, &before))
+}
+
+fn takes(dut: &mut Dut<'_>, saves: bool) -> Checked {
     let own = dut.node;
     let other = another_id(dut)?;
-    let mut done = has_taken(dut, other);
+    let mut done = has_taken(dut, other, saves);
     if dut.node != own {
         dut.nmt(Command::EnterPreOperational)?;
         if !renumber(dut, own)? {
@@ -45,11 +63,10 @@ pub(super) fn taken(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// Defaults that follow the node ID, now and with the other one: of objects that no save includes, since a node may save
-/// a COB-ID as it is.
-fn defaults(dut: &mut Dut<'_>, other: NodeId) -> Checked<Vec<(Address, Vec<u8>)>> {
+/// Defaults that follow the node ID, now and with the other one. If the node may have saved values, only those of objects
+/// that no save includes, since a node may save a COB-ID as it is.
+fn defaults(dut: &mut Dut<'_>, other: NodeId, saves: bool) -> Checked<Vec<(Address, Vec<u8>)>> {
     let own = dut.node;
-    let saves = dut.eds.has(0x1010);
     let mut follow = Vec::new();
     for entry in dut.eds.dictionary().entries().collect::<Vec<Entry>>() {
         let is_saved = saves && entry.access.writable() && entry.group != Group::None;
@@ -66,9 +83,9 @@ fn defaults(dut: &mut Dut<'_>, other: NodeId) -> Checked<Vec<(Address, Vec<u8>)>
     Ok(follow)
 }
 
-fn has_taken(dut: &mut Dut<'_>, other: NodeId) -> Checked {
+fn has_taken(dut: &mut Dut<'_>, other: NodeId, saves: bool) -> Checked {
     let own = dut.node;
-    let follow = defaults(dut, other)?;
+    let follow = defaults(dut, other, saves)?;
     if !renumber(dut, other)? {
         configured(dut)?;
         let answer = ask(

@@ -48,10 +48,19 @@ fn boots_once(dut: &mut Dut<'_>, reset: Command) -> Checked {
     dut.times.boots.push(heard.at.micros_since(from));
     let more = dut.all_of(id, QUIET)?;
     let again = more.iter().find(|heard| heard.frame.data() == [0]);
-    match again {
-        Some(heard) => fail("one boot-up message", format!("{} came again", heard.frame)),
-        None => Ok(()),
+    if let Some(heard) = again {
+        return fail("one boot-up message", format!("{} came again", heard.frame));
     }
+    let Some(heard) = more.first() else {
+        return Ok(());
+    };
+    let period = Address::new(0x1017, 0);
+    let has_none = !dut.eds.has(0x1017) || dut.upload(period)? == Ok(vec![0, 0]);
+    ensure(
+        !has_none,
+        "no heartbeat after the boot-up message, as 1017h is 0",
+        format!("{} came", heard.frame),
+    )
 }
 
 pub(super) fn boot_up_after_communication(dut: &mut Dut<'_>) -> Checked {

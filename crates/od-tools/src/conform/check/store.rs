@@ -5,9 +5,9 @@ use od_wire::AbortCode::{Length, LocalControl, NotStored, TooShort};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
-use crate::conform::dut::Dut;
+use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, number};
 
 /// Time after the response to a save, since a node may still be writing, in microseconds.
@@ -298,6 +298,25 @@ fn saves_no_communication(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// Resets the node, which then reports no error of its stored data (CiA 301, table 26: 55xxh and 63xxh).
+fn reset_without_error(dut: &mut Dut<'_>) -> Checked {
+    let had_error = dut.upload(Address::new(0x1001, 0))? != Ok(vec![0]);
+    let from = dut.frames.len();
+    dut.reset(Command::ResetNode)?;
+    dut.settle(QUIET)?;
+    let id = dut.id(0x80);
+    let frames = dut.frames.get(from..).unwrap_or_default().iter();
+    let mut own = frames.filter(|traced| is_data(&traced.frame, id));
+    let error = own.find(|traced| matches!(traced.frame.bytes()[1], 0x55 | 0x63));
+    match error.map(|traced| traced.frame) {
+        Some(frame) if !had_error => fail(
+            "no EMCY 55xxh or 63xxh after the reset, as the stored data are right",
+            format!("{frame} came"),
+        ),
+        _ => Ok(()),
+    }
+}
+
 /// A value that this sub-index saves is active after a reset.
 fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
     if !saves_on_command(dut, sub)? {
@@ -327,7 +346,8 @@ fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
         }
         // A node that keeps its values at a reset must have saved this one, too: write the earlier value before the reset.
         dut.write(address, &before)?;
-        dut.reset(Command::ResetNode)?;
+        let done = reset_without_error(dut);
+        dut.fault(done)?;
         for command in [None, Some(Command::ResetCommunication)] {
             if let Some(command) = command {
                 dut.write(address, &before)?;
@@ -381,7 +401,8 @@ fn loaded(dut: &mut Dut<'_>, sub: u8) -> Checked {
     let done = dut
         .write(Address::new(0x1011, sub), b"load")
         .and_then(|()| {
-            dut.reset(Command::ResetNode)?;
+            let done = reset_without_error(dut);
+            dut.fault(done)?;
             let after = dut.read(address)?;
             ensure(
                 after == default,
