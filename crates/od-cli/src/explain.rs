@@ -1,4 +1,4 @@
-//! `odkit explain`: the meaning of a rule, with an example and its fix.
+//! `odkit explain`: the meaning of a rule, with an example and its fix, or of an abort code or an EMCY error code.
 
 use od_eds::check::{Fixability, Rule, all, pair, rule};
 use od_eds::tools::tool_of;
@@ -6,12 +6,13 @@ use od_eds::tools::tool_of;
 use crate::failure::Failure;
 use crate::output;
 
+mod codes;
 mod example;
 
-/// Explain a rule by its code: why it matters, with an example before and after
+/// Explain a rule by its code: why it matters, with an example before and after; or an SDO abort code, or an EMCY error code
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Codes of rules, such as `E0412`
+    /// Codes: of a rule, such as `E0412`, of an SDO abort, such as `0x06070010`, or of an EMCY message, such as `8130h`
     #[arg(required_unless_present = "list", value_name = "CODE")]
     codes: Vec<String>,
     /// List all rules
@@ -23,8 +24,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.list {
         return output::print(&all().map(row).collect::<String>());
     }
-    let page = |code: &String| rule(code).map(text).ok_or_else(|| unknown(code));
-    let pages: Result<Vec<String>, Failure> = args.codes.iter().map(page).collect();
+    let page = |code: &&String| {
+        let page = rule(code).map(text).or_else(|| codes::page(code));
+        page.ok_or_else(|| unknown(code))
+    };
+    // `emcy 8130`: the number says what it is.
+    let is_kind = |code: &&String| ["emcy", "sdo", "abort"].contains(&&*code.to_lowercase());
+    let codes = args
+        .codes
+        .iter()
+        .filter(|code| !is_kind(code) || args.codes.len() == 1);
+    let codes: Vec<&String> = codes.collect();
+    let pages: Result<Vec<String>, Failure> = codes.iter().map(page).collect();
     output::print(&pages?.join("\n"))
 }
 

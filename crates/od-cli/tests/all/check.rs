@@ -255,6 +255,9 @@ fn explain_has_a_page_for_each_code() {
     let near = odkit(&["explain", "E0108"], "");
     assert_eq!(near.code, 2);
     assert!(near.err.contains("did you mean W0108?"), "{}", near.err);
+    let codes = odkit(&["explain", "emcy", "8130h", "0x06070010"], "");
+    assert!(codes.out.starts_with("8130h life guard"), "{}", codes.out);
+    assert!(codes.out.contains("\n06070010h length"), "{}", codes.out);
     assert_eq!(odkit(&["explain", "E9999"], "").code, 2);
     assert_eq!(odkit(&["explain"], "").code, 2);
 }

@@ -53,7 +53,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     let text = plain(&decoded(bytes));
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
     let mut lacks_times = is_untimed(&lines);
-    let (mut reader, is_candump) = match choose(&lines, lacks_times) {
+    let (mut reader, may_be_deltas) = match choose(&lines, lacks_times) {
         Some(chosen) => chosen,
         None if text.trim().is_empty() => return Err("it is empty: no frame was recorded".into()),
         None => {
@@ -66,18 +66,23 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
                     .into());
             }
             lacks_times = typed::is_untimed(&lines);
-            (typed::reader(), false)
+            (typed::reader(), true)
         }
     };
     let mut records = Vec::new();
     let mut skipped = Vec::new();
     let mut others = 0;
     for (line, text) in (1..).zip(&lines) {
-        // A log in an issue is often between two fences of Markdown.
-        if text.trim().is_empty() || text.starts_with("```") {
+        // A log in an issue is often between two fences of Markdown, or below the command that wrote it.
+        if text.trim().is_empty() || text.starts_with("```") || is_command(text) {
             continue;
         }
-        match reader(text) {
+        let read = if is_gap(text) {
+            Err("frames are left out here".into())
+        } else {
+            reader(text)
+        };
+        match read {
             Ok(Entry::Record(record)) => records.push(record),
             Ok(Entry::Other) => others += 1,
             Ok(Entry::Nothing) => {}
@@ -88,7 +93,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             }),
         }
     }
-    if is_candump && are_deltas(&records) {
+    if may_be_deltas && are_deltas(&records) {
         let mut at = Instant::ZERO;
         for record in &mut records {
             at = at.plus_micros(record.at.as_micros());
@@ -103,6 +108,23 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             ..finish(records, skipped)
         }),
     }
+}
+
+/// Returns whether a line is a prompt of a shell, with or without the command that wrote the log: `root@host:~# candump can0`.
+fn is_command(line: &str) -> bool {
+    let line = line.trim();
+    let after = line
+        .split_once(['$', '#'])
+        .filter(|(prompt, _)| prompt.contains('@'));
+    after.is_some_and(|(_, rest)| {
+        rest.is_empty() || rest.starts_with(' ') && rest.contains("candump")
+    })
+}
+
+/// Returns whether a line of points stands for frames that were left out.
+fn is_gap(line: &str) -> bool {
+    let line = line.trim().trim_matches(['[', ']', '(', ')']);
+    line == "…" || line.len() > 1 && line.bytes().all(|c| c == b'.')
 }
 
 /// The text of a file in UTF-8, or in UTF-16 with a byte order mark, as PowerShell writes the output of a command.
@@ -177,7 +199,7 @@ fn command(line: &str) -> &str {
     line.strip_prefix("cansend ").unwrap_or(line)
 }
 
-/// The reader of the format that a line of the head shows, and whether it is that of `candump`.
+/// The reader of the format that a line of the head shows, and whether its times may be those since the frame before.
 fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, bool)> {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
     // The rows of some of them look like those of an ASC log.

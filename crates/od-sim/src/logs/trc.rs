@@ -1,4 +1,4 @@
-//! PEAK TRC, versions 1.0 to 1.3, 2.0 and 2.1.
+//! PEAK TRC, versions 1.0 to 1.3, 2.0 and 2.1; also without its first lines.
 
 use std::prelude::v1::*;
 
@@ -11,6 +11,18 @@ pub(super) fn is_one(line: &str) -> bool {
     header(line, "FILEVERSION").is_some()
         || header(line, "STARTTIME").is_some()
         || numbered(line).is_some()
+        || is_second(line)
+}
+
+/// Returns whether a line is one of version 2 with its usual columns, as in a log without its first lines:
+/// `310     18274.059 DT     0605 Rx 8  40 …`.
+fn is_second(line: &str) -> bool {
+    let words: Vec<&str> = line.split_whitespace().take(5).collect();
+    let [number, time, kind, _, "Rx" | "Tx"] = words[..] else {
+        return false;
+    };
+    let is_kind = kind.len() == 2 && kind.bytes().all(|c| c.is_ascii_uppercase());
+    is_kind && number.parse::<u64>().is_ok() && millis(time).is_some()
 }
 
 /// The value of `;$NAME=value`.
@@ -43,7 +55,8 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let (major, minor) = version
         .and_then(|text| text.split_once('.'))
         .unwrap_or_default();
-    if major == "2" {
+    let is_cut = version.is_none() && lines.iter().any(|line| is_second(line));
+    if major == "2" || is_cut {
         return second(lines);
     }
     let has_bus = minor.starts_with(['2', '3']);

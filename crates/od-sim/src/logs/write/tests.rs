@@ -146,6 +146,10 @@ fn logs_of_other_tools_are_read() {
              1      1059.900 DT     0300 Rx 7  00 00 00 00 04 00 00\n",
             "300#00000000040000",
         ),
+        (
+            "    310     18274.059 DT     0605 Rx 8  40 00 10 00 00 00 00 00 \n",
+            "605#4000100000000000",
+        ),
     ] {
         let log = read(text.as_bytes()).expect(text);
         assert_eq!(log.skipped, [], "{text}");
