@@ -286,8 +286,8 @@ impl Axis {
         self.comes_to(dut, 0x606C, pace, window, "after 60FFh was written")
     }
 
-    /// Writes a set-point, and waits for the handshake of bits 4 and 12.
-    pub(super) fn set_point(self, dut: &mut Dut<'_>, target: i64, how: u16) -> Checked {
+    /// Writes a set-point, and waits for the handshake of bits 4 and 12. Returns the statusword after bit 12 became 1.
+    pub(super) fn set_point(self, dut: &mut Dut<'_>, target: i64, how: u16) -> Checked<u64> {
         let acknowledged = 1 << 12;
         self.command(dut, ENABLE | how)?;
         self.shows(
@@ -303,8 +303,10 @@ impl Axis {
             acknowledged,
         );
         self.shows(dut, CHANGE, set)?;
+        let word = self.value(dut, 0x6041)? as u64;
         self.command(dut, ENABLE | how)?;
-        self.shows(dut, MOVE, ("bit 12 = 0 after bit 4 = 0", acknowledged, 0))
+        self.shows(dut, MOVE, ("bit 12 = 0 after bit 4 = 0", acknowledged, 0))?;
+        Ok(word)
     }
 
     /// Waits for bit 10, and compares the place.

@@ -249,6 +249,7 @@ pub(super) fn after_reset(dut: &mut Dut<'_>) -> Checked {
 
 /// Each TPDO carries the objects of a mapping that is as long as possible.
 pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
+    inverts_inputs(dut)?;
     let mut any = false;
     // TPDOs that take an object twice, and those that do not.
     let (mut taken, mut refused) = (0, Vec::new());
@@ -289,6 +290,24 @@ pub(super) fn full(dut: &mut Dut<'_>) -> Checked {
         dut.fault(fail(expected, abort_text(code)))?;
     }
     at_least_one(any, "no TPDO is on whose mapping can be written")
+}
+
+/// Inverts the digital inputs of a module, as an input that is 0 does not show whether a TPDO carries it.
+fn inverts_inputs(dut: &mut Dut<'_>) -> Checked {
+    if dut.eds.meets("cia401") != Some(true) {
+        return Ok(());
+    }
+    let polarity = dut.eds.writable();
+    let polarity = polarity
+        .iter()
+        .map(|entry| entry.address)
+        .filter(|address| address.index == 0x6002);
+    for address in polarity {
+        let zeros = !dut.number(0x6000, address.sub)? as u8;
+        let old = dut.keep(address)?.first().copied().unwrap_or(0);
+        let _ = dut.download(address, &[old ^ zeros])?;
+    }
+    Ok(())
 }
 
 /// Maps as many objects as there is room for. A node need not take one object twice: returns where it refuses this.

@@ -428,8 +428,8 @@ pub(super) fn after_reset(dut: &mut Dut<'_>) -> Checked {
     at_least_one(any, "no RPDO is on and writes values that can be read")
 }
 
-/// An RPDO with an event timer (sub-index 5) that does not come again in time causes EMCY 8250h; not before the first
-/// one, and not while it comes in time.
+/// An RPDO with an event timer (sub-index 5) that does not come again in time causes EMCY 8250h, and the next one ends this
+/// error; no EMCY before the first one, and none while it comes in time.
 pub(super) fn time_out(dut: &mut Dut<'_>) -> Checked {
     const MILLIS: u16 = 200;
     sends_emcy(dut)?;
@@ -479,6 +479,13 @@ fn is_in_time(dut: &mut Dut<'_>, pdo: &Tpdo, changed: &Changed, millis: u16) -> 
         match late(dut, 2 * time)? {
             Some(frame) => is_whole(&frame, &expected)?,
             None => return fail(expected, "none came"),
+        }
+        if let Some(frame) = Frame::new(pdo.id(), &changed.bytes) {
+            dut.send(frame)?;
+        }
+        if emcy(dut, 0, time / 2)?.is_none() {
+            let expected = format!("EMCY 0000h, as {name} came again after EMCY 8250h");
+            return fail(expected, "none came");
         }
     }
     Ok(())

@@ -10,6 +10,7 @@ use super::transmit::{
 };
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
+use crate::conform::sdo::abort_text;
 
 /// Every valid TPDO is sent with its CAN-ID and the length of its mapping.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
@@ -241,6 +242,16 @@ fn forbids_rtr(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     let mut is_taken = true;
     for value in [before | 1 << 31, other | 1 << 31, other] {
         let done = dut.download(pdo.address(1), &value.to_le_bytes())?;
+        if let Err(code) = done
+            && is_taken
+            && value & 1 << 30 != 0
+        {
+            let expected = format!(
+                "{} to take bit 30, since the TPDO allows remote frames",
+                pdo.address(1)
+            );
+            dut.fault(fail(expected, abort_text(code)))?;
+        }
         is_taken = is_taken && done.is_ok();
         if is_taken {
             let done = dut.is_as_written(pdo.address(1), &value.to_le_bytes());

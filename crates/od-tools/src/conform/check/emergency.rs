@@ -411,18 +411,41 @@ pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
     let address = Address::new(0x1029, 1);
     let before = dut.keep(address)?;
-    dut.write(address, &[value])?;
     dut.follow_state()?;
-    let node = provoke(dut)?;
-    // The heartbeat of the test itself does not belong to the monitored node.
-    dut.wait(400_000)?;
-    let done = dut.is_in(state);
-    // The heartbeat that ends the error can be missing again before the values are restored, which a node in Stopped
-    // does not allow.
-    dut.nmt(Command::EnterPreOperational)?;
-    dut.write(address, &before)?;
-    beat(dut, node)?;
-    done
+    for is_operational in [false, true] {
+        let first = if is_operational {
+            u8::from(value != 1)
+        } else {
+            value
+        };
+        if dut.download(address, &[first])?.is_err() && is_operational {
+            break;
+        }
+        let node = watch(dut, 100)?;
+        dut.nmt(Command::Start)?;
+        // A node need not take the value in Operational.
+        if is_operational && dut.download(address, &[value])?.is_err() {
+            break;
+        }
+        beat(dut, node)?;
+        // The heartbeat of the test itself does not belong to the monitored node.
+        dut.wait(400_000)?;
+        // The end of the error does not change the state again.
+        let done = dut.is_in(state).and_then(|()| {
+            beat(dut, node)?;
+            dut.is_in(state)
+        });
+        if matches!(done, Err(End::Lost(_))) {
+            return done;
+        }
+        // The heartbeat that ends the error can be missing again before the values are restored, which a node in
+        // Stopped does not allow.
+        dut.nmt(Command::EnterPreOperational)?;
+        dut.write(address, &before)?;
+        beat(dut, node)?;
+        done?;
+    }
+    Ok(())
 }
 
 /// The end of life guarding is an error of communication, too: each value of 1029h:01.

@@ -229,7 +229,29 @@ pub(super) fn range(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// Speed and acceleration are 0 while the position stays the same.
+/// Steps in 100 ms of a shaft whose speed is not 0 in steps per second.
+const FAST: u64 = 100;
+
+/// The speed of a shaft that turns is not 0, unless a factor (6031h) divides it.
+fn shows_speed(dut: &mut Dut<'_>, rates: &[Address]) -> Checked {
+    let is_divided = dut.eds.entry(0x6031, 4).is_some() && dut.number(0x6031, 4)? != 1;
+    let speeds = rates.iter().filter(|address| address.index == 0x6030);
+    if is_divided || speeds.clone().next().is_none() {
+        return lacks("the shaft turns, and 6030h is missing or divided by 6031h:04");
+    }
+    for address in speeds {
+        let is = dut.read(*address)?;
+        let done = ensure(
+            is.iter().any(|byte| *byte != 0),
+            format!("another value than 0 in {address} while the shaft turns"),
+            format!("{} was read", values::hex(&is)),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
+/// Speed and acceleration are 0 while the position stays the same; the speed of a shaft that turns is not.
 pub(super) fn at_rest(dut: &mut Dut<'_>) -> Checked {
     const TURNS: u8 = 10;
     let entries: Vec<_> = dut.eds.dictionary().entries().collect();
@@ -245,11 +267,19 @@ pub(super) fn at_rest(dut: &mut Dut<'_>) -> Checked {
         .filter(|address| is_rate(*address))
         .collect();
     let place = dut.number(0x6004, 0)?;
+    let mut last = place;
+    let mut is_fast = true;
     for _ in 0..TURNS {
         dut.wait(100_000)?;
-        if dut.number(0x6004, 0)? != place {
-            return lacks("the shaft turns");
-        }
+        let now = dut.number(0x6004, 0)?;
+        is_fast &= now.abs_diff(last) > FAST;
+        last = now;
+    }
+    if is_fast {
+        return shows_speed(dut, &rates);
+    }
+    if last != place {
+        return lacks("the shaft turns");
     }
     for address in &rates {
         let is = dut.read(*address)?;

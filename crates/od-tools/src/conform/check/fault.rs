@@ -115,11 +115,10 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
         if has_time {
             axis.choose(dut, 0x6066, 0)?;
         }
-        // The greatest number turns the supervision off.
-        axis.choose(dut, 0x6065, u32::MAX.into())?;
+        axis.choose(dut, 0x6065, UNSUPERVISED)?;
         let Stray {
             greatest, apart, ..
-        } = axis.strays(dut, pace, u32::MAX.into())?;
+        } = axis.strays(dut, pace, UNSUPERVISED)?;
         let window = axis.window(dut, 0x6067)?;
         let done = ensure(
             apart < 10 * window.max(1) || 4 * greatest >= apart,
@@ -188,11 +187,14 @@ pub(super) fn following_error(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
+/// The following error window (6065h) that turns the supervision off.
+const UNSUPERVISED: i64 = u32::MAX as i64;
+
 /// A movement with a following error.
 struct Stray {
     /// The greatest following error before bit 13 was 1.
     greatest: i64,
-    /// The greatest distance of 6062h and 6064h, read one after the other.
+    /// The greatest distance of 6062h and 6064h, read one after the other; 0 with the supervision.
     apart: i64,
     /// Milliseconds from the moment at which the error was beyond the window to bit 13 or a fault; `None` without them.
     error_after: Option<i64>,
@@ -248,10 +250,10 @@ impl Axis {
         self.set_point(dut, target, 0)?;
         let end = dut.now().plus_micros(MOVE);
         let (mut greatest, mut apart, mut beyond) = (0, 0, None);
-        // More reads take time, in which an error may come unseen.
-        let compares = self.has(dut, 0x6062) && window == i64::from(u32::MAX);
+        // More reads take time, in which an error of a supervised axis would come unseen.
+        let has_time_to_compare = window == UNSUPERVISED;
         loop {
-            if compares {
+            if has_time_to_compare && self.has(dut, 0x6062) {
                 let demand = self.value(dut, 0x6062)?;
                 apart = apart.max((demand - self.value(dut, 0x6064)?).abs());
             }

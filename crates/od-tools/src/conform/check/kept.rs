@@ -12,7 +12,7 @@ use super::store::command;
 use super::transmit::{Mapped, contradiction, is_on, mapping, timed_on};
 use crate::conform::dut::{Dut, FREE};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, End, at_least_one, ensure, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::number;
 
 /// A value before a change, and after it.
@@ -134,7 +134,8 @@ struct Changes {
     pdos: Vec<Pdo>,
 }
 
-/// Another value, which the EDS allows: one that differs in each byte, or that differs by one.
+/// Other values, which the EDS allows: one that differs in each byte, one that differs by one, the limits, and one for
+/// each bit, since an object may be a set of bits.
 fn others(dut: &Dut<'_>, entry: &Entry, before: &[u8]) -> Vec<Vec<u8>> {
     let address = entry.address;
     let flip = |count: usize| {
@@ -158,6 +159,11 @@ fn others(dut: &Dut<'_>, entry: &Entry, before: &[u8]) -> Vec<Vec<u8>> {
             let limits = [literal(entry.low), literal(entry.high)];
             let mut all = vec![flip(8), flip(1)];
             all.extend(limits.into_iter().flatten());
+            all.extend((1..8).map(|bit| {
+                let mut other = before.to_vec();
+                other.iter_mut().take(1).for_each(|byte| *byte ^= 1 << bit);
+                other
+            }));
             all
         }
     };
@@ -702,6 +708,14 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
             continue;
         }
         any = true;
+        // A write of a manufacturer's object may be a command, after which it has its own value again.
+        if !(0x2000..0x6000).contains(&own.index) && dut.upload(own)?.as_ref() == Ok(&before) {
+            let done = fail(
+                format!("another value in {own} after a write that the node accepted"),
+                format!("{} was read, as before it", values::hex(&before)),
+            );
+            dut.fault(done)?;
+        }
         let after = read_all(dut, &near)?;
         if let Err(code) = dut.download(own, &before)? {
             dut.notes

@@ -103,7 +103,17 @@ pub(super) fn at_once(dut: &mut Dut<'_>) -> Checked {
             let pace = axis.pace(dut)?;
             axis.set(dut, 0x6081, pace)?;
         }
-        axis.set_point(dut, far, 0)?;
+        let word = axis.set_point(dut, far, 0)?;
+        let done = ensure(
+            word & REACHED.1 == 0,
+            format!(
+                "bit 10 = 0 in {} with a new set-point that is {} away",
+                axis.at(0x6041),
+                10 * way
+            ),
+            format!("{word:04X}h was read"),
+        );
+        dut.fault(done)?;
         axis.set_point(dut, from, AT_ONCE)?;
         let place = axis.value(dut, 0x6064)?;
         ensure(
