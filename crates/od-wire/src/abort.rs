@@ -86,7 +86,7 @@ abort_codes! {
     MaximumBelowMinimum = 0x0609_0036, "maximum below minimum";
     NoResource = 0x060A_0023, "resource not available";
     General = 0x0800_0000, "general error";
-    NotStored = 0x0800_0020, "data cannot be stored (wrong signature)";
+    NotStored = 0x0800_0020, "data cannot be transferred or stored";
     LocalControl = 0x0800_0021, "data cannot be stored because of local control";
     DeviceState = 0x0800_0022, "not in the present device state";
     NoDictionary = 0x0800_0023, "object dictionary missing or not generated";

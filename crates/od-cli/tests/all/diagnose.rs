@@ -55,13 +55,13 @@ fn case(text: &str) -> Case<'_> {
     case
 }
 
-/// `FRAME FROM TO PERIOD JITTER`, in ms. Each frame is late by a random time of up to two jitters.
+/// `FRAME FROM TO PERIOD JITTER`, in ms with or without a decimal point. Each frame is late by a random time of up to two jitters.
 fn foreign(text: &str) -> Vec<Record> {
     let words: Vec<&str> = text.split(' ').collect();
     let [frame, from, to, period, jitter] = words[..] else {
         panic!("{text}");
     };
-    let number = |word: &str| word.parse::<u64>().expect("a number") * 1000;
+    let number = |word: &str| (word.parse::<f64>().expect("a number") * 1000.0) as u64;
     let (from, to, period, jitter) = (number(from), number(to), number(period), number(jitter));
     let frame = od_sim::logs::candump::parse_frame(frame).expect("a frame");
     let mut all = Vec::new();
@@ -212,6 +212,52 @@ fn the_cause_of_a_fault_is_named_first() {
     );
 }
 
+/// Each rule has a healthy log that looks like its fault.
+#[test]
+fn each_rule_has_a_log_that_looks_like_its_fault() {
+    let healthy = cases(HEALTHY);
+    let names: Vec<&str> = rules().map(|(name, _)| name).collect();
+    let like = |name: &str| {
+        healthy
+            .iter()
+            .any(|case| case.title.split(": ").next() == Some(name))
+    };
+    let missing: Vec<&&str> = names.iter().filter(|name| !like(name)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    for case in &healthy {
+        if let Some((name, _)) = case.title.split_once(": ") {
+            assert!(names.contains(&name), "{name} is not a rule");
+        }
+    }
+}
+
+/// The cause names the mistake of the client.
+#[test]
+fn a_refusal_names_the_mistake_of_the_client() {
+    let all = cases(FAULTS);
+    let told = |title: &str| {
+        let case = all
+            .iter()
+            .find(|case| case.title.ends_with(title))
+            .expect("a case");
+        diagnosed(case).1[0].causes[0].text.clone()
+    };
+    for (title, part) in [
+        (
+            "how many of its bytes are used",
+            "announces 10 bytes, and its segments have 14",
+        ),
+        ("the error history with FFh", "1003h:00 accepts only 0"),
+        ("requests a segment with 50h", "the command byte 50h"),
+        (
+            "insists on a block transfer",
+            "does not support block transfer",
+        ),
+    ] {
+        assert!(told(title).contains(part), "{}", told(title));
+    }
+}
+
 /// The formats of the command, its exit code, and a log without times.
 #[test]
 fn the_command_shows_causes_and_sets_the_exit_code() {
@@ -296,7 +342,10 @@ fn without_times_the_order_of_the_frames_shows_a_fault_or_nothing() {
         for incident in incidents {
             let ids: Vec<&str> = incident.causes.iter().map(|cause| cause.id).collect();
             // The sign of a fault that needs times, without its cause.
-            let is_sign = matches!(ids[0], "error-control" | "other-response");
+            let is_sign = matches!(
+                ids[0],
+                "error-control" | "error-behaviour" | "other-response" | "overrun"
+            );
             if !is_sign && !ids[..ids.len().min(2)].contains(&wanted) {
                 wrong.push(format!("{}: {} {ids:?}", case.title, incident.text));
             }

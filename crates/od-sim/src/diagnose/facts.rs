@@ -145,6 +145,8 @@ pub(super) struct Node {
     pub(super) writes: Vec<(Seen, Address, u32)>,
     observer: Observer,
     is_pending: bool,
+    /// The client has aborted, and no request came since.
+    is_aborted: bool,
 }
 
 impl Node {
@@ -364,13 +366,22 @@ impl Node {
             return;
         };
         match message {
-            Message::Request(Request::Abort { .. }) => self.end(seen, Outcome::GaveUp),
+            Message::Request(Request::Abort { .. }) => {
+                self.is_aborted = true;
+                self.end(seen, Outcome::GaveUp);
+            }
             Message::Request(Request::EndBlockUpload) | Message::Segment { .. } => {}
+            // A server that aborts a transfer, too, which its client has aborted.
+            Message::Response(Response::Abort { .. }) if self.is_aborted && !self.is_pending => {}
             Message::Request(request) => {
+                self.is_aborted = false;
                 self.end(seen, Outcome::GaveUp);
                 let is_download = matches!(
                     request,
-                    Request::InitiateDownload { .. } | Request::InitiateBlockDownload { .. }
+                    Request::InitiateDownload { .. }
+                        | Request::DownloadSegment(_)
+                        | Request::InitiateBlockDownload { .. }
+                        | Request::EndBlockDownload { .. }
                 );
                 let [command, low, high, sub, value @ ..] = *frame.bytes();
                 let address = Address::new(u16::from_le_bytes([low, high]), sub);

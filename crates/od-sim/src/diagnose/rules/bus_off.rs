@@ -32,9 +32,11 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             let cause = if emcy.code == 0x8110 {
                 Cause::new(
                     "overrun",
-                    format!("node {id} takes frames too slowly, and lost some"),
                     format!(
-                        "acceptance filters and interrupt load of node {id}, and bursts on the bus"
+                        "node {id} loses frames: it takes them too slowly, or cannot send its own"
+                    ),
+                    format!(
+                        "acceptance filters and interrupt load of node {id}, bursts on the bus, and whether a node acknowledges its frames"
                     ),
                 )
             } else {

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_model::Address;
 
-use crate::diagnose::facts::{Facts, Seen, before, millis, until};
+use crate::diagnose::facts::{Facts, Seen, before, median_interval, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -99,7 +99,20 @@ fn watched(facts: &Facts<'_>, id: u8, emcy: Seen) -> Option<(u8, u32)> {
         let last = until(&facts.nodes.get(&node)?.beats, emcy.at).last()?;
         Some(emcy.at.micros_since(last.at))
     };
-    entries.max_by_key(|(node, time)| {
+    let known = entries.max_by_key(|(node, time)| {
         silent(*node).map(|micros| micros as i64 - i64::from(*time) * 1000)
-    })
+    });
+    known.or_else(|| missing(facts, id, emcy))
+}
+
+/// The only node whose heartbeat is missing when another node reports it, and the time since the last one.
+fn missing(facts: &Facts<'_>, id: u8, emcy: Seen) -> Option<(u8, u32)> {
+    let others = facts.nodes.iter().filter(|(other, _)| **other != id);
+    let mut silent = others.filter_map(|(other, node)| {
+        let beats = until(&node.beats, emcy.at);
+        let since = emcy.at.micros_since(beats.last()?.at);
+        let is_late = beats.len() >= 3 && since > median_interval(beats) * 3 / 2;
+        is_late.then_some((*other, u32::try_from(since / 1000).ok()?))
+    });
+    silent.next().filter(|_| silent.next().is_none())
 }

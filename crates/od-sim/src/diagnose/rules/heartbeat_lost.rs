@@ -74,6 +74,8 @@ fn incident(
         **other != id
             && node.beats.len() >= 4
             && node.beats[0].at <= last.at
+            // Otherwise its next heartbeat was not due yet.
+            && silent < until
             && before(after(&node.beats, silent), until).is_empty()
     });
     let together: Vec<u8> = others.map(|(other, _)| *other).collect();

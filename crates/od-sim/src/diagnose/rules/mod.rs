@@ -6,6 +6,7 @@ mod consumer_too_tight;
 mod emcy;
 mod error_frames;
 mod guarding;
+mod heartbeat_flood;
 mod heartbeat_lost;
 mod inhibit_time;
 mod mapping_differs;
@@ -13,8 +14,10 @@ mod nmt_not_followed;
 mod pdo_lost;
 mod reboots;
 mod same_node_id;
+mod sdo_echo;
 mod sdo_refused;
 mod sdo_timeout;
+mod starts_late;
 mod state_changed;
 mod sync_irregular;
 mod two_clients;
@@ -27,8 +30,11 @@ use super::rule::Rule;
 /// responses.
 pub(super) const ALL: &[Rule] = &[
     error_frames::RULE,
+    sdo_echo::RULE,
     same_node_id::RULE,
+    heartbeat_flood::RULE,
     bus_load::RULE,
+    starts_late::RULE,
     bus_off::RULE,
     reboots::RULE,
     heartbeat_lost::RULE,
