@@ -216,3 +216,67 @@ fn objects_that_a_list_lacks_are_added_together() {
     let found = fixed(&format!("{wrong}{objects}"), Applicability::Unsafe);
     assert!(found.contains(right), "{found}");
 }
+
+/// An object that the count and a free number speak of is not taken out of the list by a lower count.
+#[test]
+fn a_number_that_is_missing_in_a_list_belongs_to_the_object_that_is() {
+    let object = |index| {
+        format!("[{index}]\nParameterName=a\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n")
+    };
+    let objects = ["2000", "2001", "2002", "2003", "2004"].map(object);
+    let list = "[ManufacturerObjects]\nSupportedObjects=5\n";
+    for (entries, right) in [
+        (
+            "1=0x2000\n3=0x2002\n4=0x2003\n",
+            "1=0x2000\n2=0x2001\n3=0x2002\n4=0x2003\n5=0x2004\n",
+        ),
+        (
+            "2=0x2001\n3=0x2002\n",
+            "1=0x2000\n2=0x2001\n3=0x2002\n4=0x2003\n5=0x2004\n",
+        ),
+    ] {
+        let text = format!("{list}{entries}{}", objects.concat());
+        assert_eq!(fixed(&text, Applicability::Safe), text);
+        let all = fixed(&text, Applicability::Unsafe);
+        assert_eq!(all, text.replace(entries, right));
+    }
+    // Without the objects, the count is that of the entries.
+    let text = format!("{list}1=0x2000\n3=0x2002\n{}{}", objects[0], objects[2]);
+    let safe = fixed(&text, Applicability::Safe);
+    assert!(
+        safe.contains("SupportedObjects=2\n1=0x2000\n2=0x2002\n"),
+        "{safe}"
+    );
+}
+
+#[test]
+fn a_digit_that_looks_like_a_letter_of_an_access_type_is_read_as_one() {
+    let text = |access: &str| {
+        format!("[2000]\nParameterName=a\nDataType=0x0005\nAccessType={access}\nDefaultValue=0\n")
+    };
+    for (given, right) in [("r0", "ro"), ("W0", "wo"), ("c0nst", "const"), ("x0", "x0")] {
+        let all = fixed(&text(given), Applicability::Unsafe);
+        assert!(all.contains(&text(right)), "{given}: {all}");
+    }
+}
+
+#[test]
+fn an_empty_version_is_not_one_of_cia_306() {
+    let version = |text: &str| {
+        let text = format!("[FileInfo]\nEDSVersion={text}\n[2000]\nDataType=0x0005\n");
+        let found = Document::new(text).load().findings.into_iter();
+        let mut said = found.map(|one| say(&one, &Eds).message);
+        said.any(|said| said.contains("EDSVersion") && said.contains("not a version of CiA 306"))
+    };
+    assert!(version("") && version("4"));
+    assert!(!version("4.0") && !version("4.2"));
+}
+
+#[test]
+fn a_comment_after_a_number_of_a_list_gets_its_own_line() {
+    let object = "[2000]\nParameterName=a\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n";
+    let list = "[ManufacturerObjects]\nSupportedObjects=1 ; one\n1=0x2000;two\n";
+    let right = "[ManufacturerObjects]\nSupportedObjects=1\n; one\n1=0x2000\n;two\n";
+    let safe = fixed(&format!("{list}{object}"), Applicability::Safe);
+    assert_eq!(safe, format!("{right}{object}"));
+}

@@ -12,10 +12,19 @@ use crate::rules::lists::reader::{
     w0207_listed_twice, w0214_number_twice, w0218_index, w0218_number, w0242_list_numbering,
     w0242_renumbered,
 };
+use crate::rules::text::w0109_comment_after_other;
 use crate::scan::names::List;
 use crate::scan::number::{before_comment, number};
 use crate::scan::section::{Text, TextSection};
 use crate::span::Span;
+
+/// The lists of a file, its objects, and those that CompactPDO added.
+#[derive(Clone, Copy)]
+struct File<'a> {
+    lists: &'a BTreeMap<List, Vec<TextSection<'a>>>,
+    description: &'a Description,
+    made: &'a BTreeMap<u16, ObjectDescription>,
+}
 
 /// Compares the lists of a file with its objects, and with those that CompactPDO added.
 pub(crate) fn check(
@@ -25,9 +34,16 @@ pub(crate) fn check(
     log: &mut Log,
 ) {
     let mut listed: BTreeMap<u16, Span> = BTreeMap::new();
+    let unlisted = unlisted(lists, description);
+    let file = File {
+        lists,
+        description,
+        made,
+    };
     for (list, sections) in lists {
+        let missing = unlisted.get(list).map_or(0, Vec::len);
         for section in sections {
-            entries(*list, section, lists, description, made, &mut listed, log);
+            entries(*list, section, &file, missing, &mut listed, log);
         }
     }
     if description.objects.is_empty() {
@@ -37,13 +53,7 @@ pub(crate) fn check(
         log.push(w0203_lists_missing());
         return;
     }
-    let mut missing: BTreeMap<List, Vec<u16>> = BTreeMap::new();
-    for index in description.objects.keys() {
-        if !listed.contains_key(index) {
-            missing.entry(List::of(*index)).or_default().push(*index);
-        }
-    }
-    for (list, missing) in missing {
+    for (list, missing) in unlisted {
         let section = lists.get(&list).and_then(|sections| sections.first());
         // Each of these fixes adds all objects, so a few of them are enough.
         for (at, index) in missing.iter().enumerate() {
@@ -61,22 +71,51 @@ pub(crate) fn check(
     }
 }
 
+/// The objects that no list names, by the list that should.
+fn unlisted(
+    lists: &BTreeMap<List, Vec<TextSection<'_>>>,
+    description: &Description,
+) -> BTreeMap<List, Vec<u16>> {
+    let pairs = lists.values().flatten().flat_map(|section| &section.pairs);
+    let entries = pairs.filter(|(key, _)| number(key).is_some());
+    let listed = entries.filter_map(|(_, value)| index(value, description));
+    let listed: BTreeSet<u16> = listed.collect();
+    let mut unlisted: BTreeMap<List, Vec<u16>> = BTreeMap::new();
+    for index in description.objects.keys() {
+        if !listed.contains(index) {
+            unlisted.entry(List::of(*index)).or_default().push(*index);
+        }
+    }
+    unlisted
+}
+
+/// Compares the entries of a list with the objects, of which the lists lack `missing`.
 fn entries(
     list: List,
     placed: &TextSection<'_>,
-    lists: &BTreeMap<List, Vec<TextSection<'_>>>,
-    description: &Description,
-    made: &BTreeMap<u16, ObjectDescription>,
+    file: &File<'_>,
+    missing: usize,
     listed: &mut BTreeMap<u16, Span>,
     log: &mut Log,
 ) {
+    let File {
+        lists,
+        description,
+        made,
+    } = *file;
     let mut count: Option<&Text<'_>> = None;
     let (mut found, mut invalid) = (0, 0);
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     let mut ordered = true;
     // Each of these fixes renumbers all entries, so one of them is enough; the fix of an object
-    // that is listed twice goes first.
-    let mut fixes = if names_twice(placed, description, listed) {
+    // that is listed twice goes first. Numbers that are missing belong to objects that are, if SupportedObjects counts them.
+    let all = placed.pairs.iter().filter(|(key, _)| number(key).is_some());
+    let all = all.count() + missing;
+    let counted = placed
+        .get("SupportedObjects")
+        .and_then(|count| number(count));
+    let is_full = missing > 0 && counted == Some(all as i128);
+    let mut fixes = if is_full || names_twice(placed, description, listed) {
         0..0
     } else {
         0..8
@@ -86,6 +125,10 @@ fn entries(
         None => Fix::safe(),
     };
     for (key, value) in &placed.pairs {
+        let plain = before_comment(value);
+        if plain.len() < value.len() && number(plain).is_some() {
+            log.push(w0109_comment_after_other(key, value, plain));
+        }
         let word = key.bytes().filter(|b| !b.is_ascii_whitespace());
         if word
             .map(|b| b.to_ascii_lowercase())
@@ -141,6 +184,7 @@ fn entries(
             count,
             found,
             highest,
+            missing,
         ));
     }
 }

@@ -132,7 +132,9 @@ pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Addres
 }
 
 fn check_value(known: &SectionForm, key: &str, value: &Text<'_>, form: Form, log: &mut Log) {
-    if !value.is_empty() && !fits(value, form) {
+    // An empty version is not one of a standard; each other value may be empty.
+    let is_due = !value.is_empty() || form == Form::Version;
+    if is_due && !fits(value, form) {
         log.push(match form {
             Form::Date | Form::Time => i0610_date_or_time(key, value, form),
             _ => w0609_key_value_not_valid(&known.name.replace('#', "1"), key, value, form),

@@ -58,27 +58,52 @@ pub(crate) fn w0202_object_not_listed(object: Span, index: u16, fix: Fix) -> Fin
         .fix(fix)
 }
 
-/// The fix that adds all objects that a list lacks; without edits if the numbers of the list are not those from 1 to
-/// SupportedObjects, which other findings are about.
+/// The fix that adds all objects that a list lacks. It has no edits if the numbers of the list are not those from 1 to
+/// SupportedObjects, which other findings are about, unless the objects are as many as the numbers that are missing.
 pub(crate) fn w0202_listed(placed: &TextSection<'_>, missing: &[u16]) -> Fix {
-    let numbers = placed.pairs.iter().filter_map(|(key, _)| number(key));
-    let numbers: BTreeSet<i128> = numbers.collect();
-    let highest = numbers.len() as i128;
-    let is_whole = numbers.first().is_none_or(|first| *first == 1)
-        && numbers.last().is_none_or(|last| *last == highest);
-    let count = placed.get("SupportedObjects");
-    let count = count.filter(|count| number(count) == Some(highest) && is_whole);
-    let (Some(count), Some((last, _))) = (count, placed.pairs.last()) else {
+    let keys = placed.pairs.iter().filter_map(|(key, _)| number(key));
+    let found = keys.clone().count() as i128;
+    let numbers: BTreeSet<i128> = keys.collect();
+    let new = found + missing.len() as i128;
+    let Some(count) = placed.get("SupportedObjects") else {
         return Fix::unsafe_fix();
     };
-    let lines = (highest + 1..).zip(missing);
-    let lines: Vec<String> = lines
-        .map(|(entry, index)| format!("{entry}=0x{index:04X}"))
-        .collect();
-    let new = highest + missing.len() as i128;
-    Fix::unsafe_fix()
-        .replace(count.span, new.to_string())
-        .below(last.span, lines.join("\n"))
+    let given = number(count);
+    let free = (1..=new).filter(|number| !numbers.contains(number));
+    let free: Vec<i128> = free.collect();
+    let is_whole = given == Some(found) && free.first().is_none_or(|first| *first == found + 1);
+    let is_unique = numbers.len() as i128 == found;
+    let is_counted = is_whole || given == Some(new);
+    if !is_counted || !is_unique || free.len() != missing.len() {
+        return Fix::unsafe_fix();
+    }
+    let entries = free.iter().zip(missing);
+    let entries = entries.map(|(entry, index)| (*entry, format!("{entry}=0x{index:04X}")));
+    let mut fix = Fix::unsafe_fix();
+    if is_whole {
+        fix = fix.replace(count.span, new.to_string());
+    }
+    let mut at = count.span;
+    let mut lines = entries.peekable();
+    for (key, value) in &placed.pairs {
+        // The entries with lower numbers go above this one.
+        let own = number(key);
+        let mut above = Vec::new();
+        while let Some((_, line)) = lines.next_if(|(entry, _)| own.is_some_and(|own| *entry < own))
+        {
+            above.push(line);
+        }
+        if !above.is_empty() {
+            fix = fix.above(key.span, above.join("\n"));
+        }
+        at = value.span;
+    }
+    let below: Vec<String> = lines.map(|(_, line)| line).collect();
+    if below.is_empty() {
+        fix
+    } else {
+        fix.below(at, below.join("\n"))
+    }
 }
 
 pub(crate) static W0203: Rule = Rule {
@@ -130,15 +155,19 @@ pub(crate) fn w0204_in_xdd(given: &Spanned<String>, name: &'static str, found: u
 }
 
 /// The finding about a SupportedObjects that is missing, or is not the number of entries. If a tool
-/// that counts would lose an entry with a higher number, the finding has no fix.
+/// that counts would lose an entry with a higher number, or if the number counts `unlisted` objects of the file, the
+/// finding has no fix.
 pub(crate) fn w0204_supported_objects_count(
     header: Span,
     given: Option<&Text<'_>>,
     found: i128,
     highest: i128,
+    unlisted: usize,
 ) -> Finding {
+    let counts_all =
+        |given: &Text<'_>| unlisted > 0 && number(given) == Some(found + unlisted as i128);
     let finding = match given {
-        Some(given) if highest > found => W0204.given(given),
+        Some(given) if highest > found || counts_all(given) => W0204.given(given),
         Some(given) => W0204
             .given(given)
             .fix(Fix::safe().replace(given.span, found.to_string())),

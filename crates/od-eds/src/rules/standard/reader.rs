@@ -38,8 +38,8 @@ const W0609_HEX: Form = Form {
     ..Form::OWN
 };
 const W0609_VERSION: Form = Form {
-    help: "write `4.0`, `4.1` or `4.2`, the versions of CiA 306",
-    ..Form::OWN
+    says: "{name} `{given}` in [{section}] is not a version of CiA 306",
+    help: "write `4.0`, `4.1` or `4.2`",
 };
 
 pub(crate) fn w0609_key_value_not_valid(

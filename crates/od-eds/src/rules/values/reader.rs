@@ -63,13 +63,17 @@ pub(crate) static E0405: Rule = Rule {
     ..Rule::of("E0405")
 };
 
-/// The finding about such an AccessType, with the access of the standard, or the only one that differs in one letter.
+/// The finding about such an AccessType, with the one that has a letter instead of a digit 0, the only one that differs in
+/// one letter, or the access of the standard.
 pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>, standard: Option<Access>) -> Finding {
     let finding = E0405.given(given).key(Key::AccessType);
     let is_near = |access: &Access| nearest(given, [access.name()].into_iter(), 1).is_some();
     let mut near = Access::ALL.into_iter().filter(is_near);
     let only = near.next().filter(|_| near.next().is_none());
-    match only.or(standard) {
+    let letters = given.replace('0', "o");
+    let mut typed = Access::ALL.into_iter();
+    let typed = typed.find(|access| access.name().eq_ignore_ascii_case(&letters));
+    match typed.or(only).or(standard) {
         Some(meant) => {
             let fix = Fix::unsafe_fix().replace(given.span, meant.name());
             finding
