@@ -3,7 +3,7 @@
 mod frames;
 
 use std::io::{self, StdoutLock, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, TryRecvError};
 use std::{fs, thread};
 
@@ -13,6 +13,7 @@ use od_model::Refused;
 
 use crate::config::Config;
 use crate::failure::Failure;
+use crate::network;
 use frames::Frame;
 
 /// Language server for EDS, DCF and XDD files; an editor starts it (Language Server Protocol 3.17)
@@ -120,5 +121,24 @@ impl Host for Disk {
         let config = Config::of(path).map_err(|failure| Refused::from(failure.to_string()))?;
         config.apply(path, findings);
         Ok(())
+    }
+
+    fn network(
+        &self,
+        path: &str,
+        text: &str,
+        find: &dyn Fn(&str) -> Option<Vec<u8>>,
+    ) -> Result<Vec<Finding>, String> {
+        // An editor opens other YAML files, too.
+        let is_list = path.to_ascii_lowercase().ends_with(".cpj");
+        if !is_list && !text.contains("dcf:") {
+            return Ok(Vec::new());
+        }
+        network::findings(path, text, &|path: &Path| {
+            // Without `.`, as the path of an open file.
+            let path: PathBuf = path.components().collect();
+            let bytes = path.to_str().and_then(find);
+            bytes.ok_or_else(|| "it cannot be read".into())
+        })
     }
 }

@@ -9,10 +9,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use od_eds::fix::{self, Applicability};
 use od_eds::network::{self, Node};
 use od_eds::{Description, Document, Finding};
 use od_model::{Visible, is_hidden};
 
+use crate::check::fixed;
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
 use crate::network::project::Network;
@@ -37,6 +39,12 @@ pub(crate) struct Args {
     /// Add the PDOs of the nodes to master.dcf (5800h to 5FFFh), for drivers of Lely core and ros2_canopen
     #[arg(long, short)]
     remote_pdo: bool,
+    /// Apply safe fixes to FILE (its meaning does not change)
+    #[arg(long)]
+    fix: bool,
+    /// Also apply unsafe fixes; review the result
+    #[arg(long)]
+    unsafe_fixes: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -45,19 +53,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let why = read_error(&error);
         Failure::Failed(format!("{}: {why}", args.file))
     })?;
-    let document = Document::new(bytes);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let known = RefCell::new(Files::default());
-    let load = |name: &str| known.borrow_mut().load(folder, name);
-    let is_list = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
-    let networks = if is_list {
-        network::node_lists(document.text(), &load)
-            .map(|lists| lists.into_iter().map(Network::from).collect())
-    } else {
-        project::read(document.text(), &load).map(|network| vec![network])
-    };
+    let mut document = Document::new(bytes);
+    if args.fix || args.unsafe_fixes {
+        fix_all(args, &mut document)?;
+    }
+    let networks = read(&args.file, document.text(), &of_disk);
     let networks = networks.map_err(|why| Failure::Failed(format!("{}: {why}", args.file)))?;
     let several = networks.len() > 1;
     let mut errors = 0;
@@ -74,13 +74,81 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Writes the files and the report of a network, which is in this text, and counts its errors.
-fn one(
-    args: &Args,
-    text: &str,
-    mut network: Network,
-    folder: Option<&Path>,
-) -> Result<usize, Failure> {
+/// Applies the fixes of a network file, and writes it.
+fn fix_all(args: &Args, document: &mut Document) -> Result<(), Failure> {
+    let level = if args.unsafe_fixes {
+        Applicability::Unsafe
+    } else {
+        Applicability::Safe
+    };
+    let config = Config::of(&args.file)?;
+    let found = |document: &Document| {
+        let mut findings = findings(&args.file, document.text(), &of_disk).ok()?;
+        config.apply(&args.file, &mut findings);
+        Some(findings)
+    };
+    let Some(before) = found(document) else {
+        return Ok(());
+    };
+    // A fix with which the file cannot be read removes no finding.
+    let find = |document: &Document| found(document).unwrap_or_else(|| before.clone());
+    let done = fix::fix(document, level, find);
+    if done.edits > 0 {
+        let failed = |why| Failure::Failed(format!("{}: {why}", args.file));
+        fixed::write(&args.file, done.document.bytes()).map_err(failed)?;
+        let places = report::plural(done.edits, "place");
+        output::note!("{places} fixed");
+        *document = done.document;
+    }
+    Ok(())
+}
+
+/// Returns the findings about a project or node list with this text; `open` reads the files that it names.
+///
+/// # Errors
+/// A file cannot be read, in words; the text begins with its line, if it has one.
+pub(crate) fn findings(path: &str, text: &str, open: Open<'_>) -> Result<Vec<Finding>, String> {
+    let networks = read(path, text, open)?.into_iter();
+    Ok(networks
+        .flat_map(|mut network| prepare(&mut network, false).findings)
+        .collect())
+}
+
+/// Reads a file that a project or node list names.
+pub(crate) type Open<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, String>;
+
+fn of_disk(path: &Path) -> Result<Vec<u8>, String> {
+    files::read(path).map_err(|error| read_error(&error))
+}
+
+/// Reads the networks of a project or node list.
+fn read(path: &str, text: &str, open: Open<'_>) -> Result<Vec<Network>, String> {
+    let path = Path::new(path);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let known = RefCell::new(Files::default());
+    let load = |name: &str| known.borrow_mut().load(folder, name, open);
+    let is_list = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
+    if is_list {
+        let lists = network::node_lists(text, &load)?;
+        Ok(lists.into_iter().map(Network::from).collect())
+    } else {
+        Ok(vec![project::read(text, &load)?])
+    }
+}
+
+/// The results of a network.
+struct Prepared {
+    /// Names and bytes of the files to write.
+    outputs: Vec<(String, Vec<u8>)>,
+    findings: Vec<Finding>,
+    bit_rate: Option<u32>,
+    sync_period: u32,
+}
+
+/// Configures the nodes of a network, adds its master as a node, and checks it.
+fn prepare(network: &mut Network, remote_pdo: bool) -> Prepared {
     let mut outputs = Vec::new();
     for node in &network.nodes {
         if !node.writes.is_empty() {
@@ -102,7 +170,7 @@ fn one(
         if !writes.is_empty() {
             outputs.push(("master.bin".into(), network::bytes(&writes)));
         }
-        let description = network::dcf(master, &network.nodes, args.remote_pdo);
+        let description = network::dcf(master, &network.nodes, remote_pdo);
         outputs.push((
             "master.dcf".into(),
             od_eds::canonical(&description).into_bytes(),
@@ -114,6 +182,30 @@ fn one(
         (own.place, own.places) = std::mem::take(&mut network.master_places);
         network.nodes.push(own);
     }
+    let rate = bit_rate.unwrap_or(1000);
+    let mut findings = std::mem::take(&mut network.findings);
+    findings.extend(network::check(&network.nodes, position, rate, sync_period));
+    Prepared {
+        outputs,
+        findings,
+        bit_rate,
+        sync_period,
+    }
+}
+
+/// Writes the files and the report of a network, which is in this text, and counts its errors.
+fn one(
+    args: &Args,
+    text: &str,
+    mut network: Network,
+    folder: Option<&Path>,
+) -> Result<usize, Failure> {
+    let Prepared {
+        outputs,
+        mut findings,
+        bit_rate,
+        sync_period,
+    } = prepare(&mut network, args.remote_pdo);
     if let Some(folder) = folder {
         for (name, _) in &outputs {
             // A name in the file must not lead out of the folder.
@@ -132,9 +224,6 @@ fn one(
             output::write(&folder.join(name), bytes)?;
         }
     }
-    let rate = bit_rate.unwrap_or(1000);
-    let mut findings = std::mem::take(&mut network.findings);
-    findings.extend(network::check(&network.nodes, position, rate, sync_period));
     Config::of(&args.file)?.apply(&args.file, &mut findings);
     let colours = output::error_colours();
     let text = report::render(&args.file, text, &findings, &Names::new(), colours);
@@ -158,9 +247,9 @@ struct Files {
 
 impl Files {
     /// The description of a node.
-    fn load(&mut self, folder: &Path, name: &str) -> Result<Description, String> {
+    fn load(&mut self, folder: &Path, name: &str, open: Open<'_>) -> Result<Description, String> {
         let found = self.read.entry(name.into());
-        let description = found.or_insert_with(|| load(folder, name)).as_ref();
+        let description = found.or_insert_with(|| load(folder, name, open)).as_ref();
         let description = description.map_err(Clone::clone)?;
         self.values += description.entries().count();
         if self.values > MAX_VALUES {
@@ -173,15 +262,14 @@ impl Files {
 }
 
 /// Reads the description of a node. A relative path begins in the folder of the project, otherwise in the current folder.
-fn load(folder: &Path, name: &str) -> Result<Description, String> {
+fn load(folder: &Path, name: &str, open: Open<'_>) -> Result<Description, String> {
     let beside = folder.join(name);
     let path = if beside.exists() {
         beside
     } else {
         PathBuf::from(name)
     };
-    let bytes = files::read(&path).map_err(|error| read_error(&error))?;
-    let description = od_eds::parse(Document::new(bytes).text()).description;
+    let description = od_eds::parse(Document::new(open(&path)?).text()).description;
     if description.objects.is_empty() {
         Err("no object is defined; is it an EDS, DCF or XDD file?".into())
     } else {

@@ -25,6 +25,8 @@ pub(crate) enum Kind {
     Xdd,
     /// Differences to an EDS.
     Overlay,
+    /// A project of dcfgen or a node list.
+    Network,
     /// Rust source with calls of `object_dictionary!`.
     Rust,
 }
@@ -38,6 +40,8 @@ pub(crate) struct File {
     pub(crate) kind: Kind,
     /// The file below an overlay.
     pub(crate) base: Option<Base>,
+    /// The findings about a network, with the files that it names.
+    pub(crate) network: Option<Result<Vec<Finding>, String>>,
     /// The file on the disk without its text, if its encoding differs from that of the client's text.
     disk: Option<Document>,
     seen: OnceCell<Seen>,
@@ -50,6 +54,7 @@ pub(crate) type Base = Result<Box<File>, Problem>;
 pub(crate) type Problem = (Range<usize>, String);
 
 /// A text that odkit has read.
+#[derive(Default)]
 pub(crate) struct Seen {
     pub(crate) layout: Layout,
     /// The elements of an XDD.
@@ -76,7 +81,7 @@ impl File {
         let kind = kind(&path, language);
         let disk = match kind {
             Kind::Eds | Kind::Xdd => host.read(&path).and_then(foreign),
-            Kind::Overlay | Kind::Rust => None,
+            Kind::Overlay | Kind::Network | Kind::Rust => None,
         };
         Self {
             uri,
@@ -85,6 +90,7 @@ impl File {
             text: Text::new(text, unit),
             kind,
             base: None,
+            network: None,
             disk,
             seen: OnceCell::new(),
         }
@@ -118,14 +124,8 @@ impl File {
         self.seen.get_or_init(|| match self.kind {
             Kind::Eds | Kind::Xdd => self.read(host),
             Kind::Overlay => self.overlaid(host),
-            Kind::Rust => Seen {
-                layout: Layout::default(),
-                elements: Vec::new(),
-                description: Description::default(),
-                findings: Vec::new(),
-                problems: Vec::new(),
-                misused: None,
-            },
+            Kind::Network => self.connected(host),
+            Kind::Rust => Seen::default(),
         })
     }
 
@@ -182,11 +182,7 @@ impl File {
     fn overlaid(&self, host: &dyn Host) -> Seen {
         let mut seen = Seen {
             layout: Layout::of(self.str()),
-            elements: Vec::new(),
-            description: Description::default(),
-            findings: Vec::new(),
-            problems: Vec::new(),
-            misused: None,
+            ..Seen::default()
         };
         let made = match &self.base {
             Some(Ok(base)) => od_eds::overlay(base.str(), self.str()),
@@ -209,6 +205,25 @@ impl File {
         seen.misused = host.judge(&self.path, &mut parsed.findings).err();
         seen.findings = own(&made, parsed.findings);
         seen.description = parsed.description;
+        seen
+    }
+
+    /// Reads a network with the files that it names.
+    fn connected(&self, host: &dyn Host) -> Seen {
+        let mut seen = Seen::default();
+        match &self.network {
+            Some(Ok(findings)) => seen.findings.clone_from(findings),
+            Some(Err(why)) => {
+                let line = why.strip_prefix("line ").and_then(|rest| {
+                    let (line, _) = rest.split_once(':')?;
+                    line.parse::<usize>().ok()
+                });
+                let place = line.map_or(0..0, |line| self.text.line(line.saturating_sub(1)));
+                seen.problems.push((place, why.clone()));
+            }
+            None => {}
+        }
+        seen.misused = host.judge(&self.path, &mut seen.findings).err();
         seen
     }
 
@@ -298,6 +313,7 @@ fn kind(path: &str, language: &str) -> Kind {
     match (extension.as_str(), language) {
         ("rs", _) | (_, "rust") => Kind::Rust,
         ("overlay", _) => Kind::Overlay,
+        ("cpj" | "yml" | "yaml", _) => Kind::Network,
         ("xdd" | "xdc", _) => Kind::Xdd,
         _ => Kind::Eds,
     }

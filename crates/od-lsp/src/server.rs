@@ -252,7 +252,8 @@ impl Server {
     /// Checks all files again that depend on other files; after a save, all files.
     fn others(&mut self, but: &str) {
         for (uri, open) in &mut self.files {
-            let depends = matches!(open.file.kind, Kind::Overlay | Kind::Rust) || but.is_empty();
+            let depends = matches!(open.file.kind, Kind::Overlay | Kind::Network | Kind::Rust);
+            let depends = depends || but.is_empty();
             if uri != but && depends {
                 open.file.forget();
                 open.dirty = true;
@@ -280,7 +281,7 @@ impl Server {
         let seen = file.seen(&*self.host);
         let diagnostics = match file.kind {
             Kind::Rust => check::of(file, &|path| self.find(path)),
-            Kind::Eds | Kind::Xdd | Kind::Overlay => diagnostics::of(file, seen),
+            Kind::Eds | Kind::Xdd | Kind::Overlay | Kind::Network => diagnostics::of(file, seen),
         };
         let params = PublishDiagnostics {
             uri: &file.uri,
@@ -293,17 +294,28 @@ impl Server {
         misused
     }
 
-    /// Gives an overlay that is to be read its base, with the text of the client or of the disk.
+    /// Gives a file that is to be read what it needs of others, with the text of the client or of the disk: an overlay its
+    /// base, a network the findings about its nodes.
     fn lay(&mut self, uri: &str) {
         let open = self.files.get(uri);
-        let waits = |open: &&Open| open.file.kind == Kind::Overlay && !open.file.is_seen();
-        let Some(open) = open.filter(waits) else {
+        let Some(open) = open.filter(|open| !open.file.is_seen()) else {
             return;
         };
-        let find = |path: &str| self.find(path);
-        let base = file::base(&open.file, self.unit, &*self.host, &find);
+        let file = &open.file;
+        let (mut base, mut network) = (None, None);
+        match file.kind {
+            Kind::Overlay => {
+                let find = |path: &str| self.find(path);
+                base = Some(file::base(file, self.unit, &*self.host, &find));
+            }
+            Kind::Network => {
+                let find = |path: &str| self.find(path).map(String::into_bytes);
+                network = Some(self.host.network(&file.path, file.str(), &find));
+            }
+            Kind::Eds | Kind::Xdd | Kind::Rust => return,
+        }
         if let Some(open) = self.files.get_mut(uri) {
-            open.file.base = Some(base);
+            (open.file.base, open.file.network) = (base, network);
         }
     }
 

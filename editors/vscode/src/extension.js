@@ -10,7 +10,8 @@ let client;
 /** The files that the server reads. */
 function documents(settings) {
   const rust = settings.get("rust") ? [{ language: "rust", scheme: "file" }] : [];
-  return [{ language: "eds" }, { language: "xdd" }, ...rust];
+  const networks = { scheme: "file", pattern: "**/bus.{yml,yaml}" };
+  return [{ language: "eds" }, { language: "xdd" }, networks, ...rust];
 }
 
 async function start(context) {

@@ -23,7 +23,7 @@ pub(super) fn difference(path: &str, before: &str, after: &str) -> String {
 }
 
 /// Replaces a file in one step: other programs see the old file or the new one.
-pub(super) fn write(path: &str, bytes: &[u8]) -> Result<(), String> {
+pub(crate) fn write(path: &str, bytes: &[u8]) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("it cannot be written: {error}");
     // A link leads to the file to replace.
     let path = fs::canonicalize(path).map_err(failed)?;

@@ -17,7 +17,7 @@ use checked::{Checked, Summary};
 
 mod checked;
 mod files;
-mod fixed;
+pub(crate) mod fixed;
 mod github;
 mod json;
 mod lines;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
     configure, consume_heartbeats, key_twice, misspelled_key, no_sync, not_mappable, read_only,
-    unfit_values, unusual_bit_rate,
+    text_of_flag, unfit_values, unusual_bit_rate,
 };
 use od_eds::{Finding, Span};
 use od_model::Address;
@@ -92,6 +92,19 @@ const MASTER_KEYS: &[&str] = &[
     "reset_all_nodes",
     "stop_all_nodes",
     "boot_time",
+];
+
+/// The keys of a slave and of a master that are flags.
+const FLAGS: &[&str] = &[
+    "heartbeat_consumer",
+    "boot",
+    "mandatory",
+    "reset_communication",
+    "start",
+    "start_nodes",
+    "start_all_nodes",
+    "reset_all_nodes",
+    "stop_all_nodes",
 ];
 
 /// The keys of `options` that dcfgen knows.
@@ -277,6 +290,11 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// The bit rate in kbit/s; `None` if it is missing or not a number.
+    fn bit_rate(&self) -> Option<u32> {
+        self.yaml.get("baudrate")?.integer()?.try_into().ok()
+    }
+
     fn real(&self, key: &str) -> Result<Option<f64>, String> {
         let Some(value) = self.yaml.get(key) else {
             return Ok(None);
@@ -360,20 +378,35 @@ impl<'a> Section<'a> {
         keys.filter_map(|(key, _)| {
             let owner = owner(self.whole, key.span);
             let name = owner.unwrap_or_else(|| self.name.into());
-            misspelled_key(&name, &key.text(), known, key.span)
+            let has = |key: &str| yaml.get(key).is_some();
+            misspelled_key(&name, &key.text(), known, key.span, &has)
         })
         .collect()
     }
 
-    /// The findings about misspelled keys of a slave.
+    /// The findings about texts in `yaml` where a flag is due.
+    fn texts_of_flags(&self, yaml: &Yaml, flags: &[&str]) -> Vec<Finding> {
+        let values = flags.iter().filter_map(|key| Some((*key, yaml.get(key)?)));
+        let texts = values.filter(|(_, value)| value.is_words());
+        let found = texts.filter_map(|(key, value)| {
+            let owner = owner(self.whole, value.span);
+            let name = owner.unwrap_or_else(|| self.name.into());
+            text_of_flag(&name, key, &value.text(), value.span)
+        });
+        found.collect()
+    }
+
+    /// The findings about misspelled keys and flags of a slave.
     fn misspelled_of_slave(&self) -> Vec<Finding> {
         let mut findings = self.misspelled(self.yaml, KEYS);
+        findings.extend(self.texts_of_flags(self.yaml, FLAGS));
         for (_, pdo) in ["rpdo", "tpdo"]
             .iter()
             .filter_map(|key| self.yaml.get(key))
             .flat_map(Yaml::entries)
         {
             findings.extend(self.misspelled(pdo, PDO_KEYS));
+            findings.extend(self.texts_of_flags(pdo, &["enabled"]));
         }
         findings
     }
@@ -478,7 +511,7 @@ impl<'a> Section<'a> {
                 Some(255) => 255,
                 _ => self.node_id()?.unwrap_or(default.node_id),
             },
-            bit_rate: number("baudrate", default.bit_rate)?,
+            bit_rate: self.bit_rate().unwrap_or(default.bit_rate),
             identity,
             sync_period: number("sync_period", 0)?,
             sync_window: number("sync_window", 0)?,
@@ -571,9 +604,9 @@ pub(super) fn read(
     };
     let master_places = (master.span, own.places());
     findings.extend(own.misspelled(master, MASTER_KEYS));
+    findings.extend(own.texts_of_flags(master, FLAGS));
     if let Some(rate) = master.get("baudrate") {
-        let number = own.number("baudrate")?.unwrap_or_default();
-        findings.extend(unusual_bit_rate(number, rate.span));
+        findings.extend(unusual_bit_rate(&rate.text(), own.bit_rate(), rate.span));
     }
     let has_sync = own.number("sync_period")?.unwrap_or(0) > 0;
     let of_sync = ["sync_window", "sync_overflow"].into_iter();

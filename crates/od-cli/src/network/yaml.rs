@@ -133,6 +133,11 @@ impl Yaml {
         }
     }
 
+    /// Returns whether the value is a text that is not empty.
+    pub(super) fn is_words(&self) -> bool {
+        matches!(&self.value, Value::Text(text) if !text.is_empty())
+    }
+
     /// Converted as by Python's `bool`: a text that is not empty is true.
     pub(super) fn is_true(&self) -> bool {
         match &self.value {

@@ -505,11 +505,11 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
         ),
         (
             "[Topology]\nNode3Present=1\nNode3DCFNam=n4.dcf\n",
-            "line 3: `Node3DCFNam` is not a name of a node list; write `Node3DCFName`",
+            "`Node3DCFNam` is not a key of a node list",
         ),
         (
             "\n[Tropology]\nNodes=0\n",
-            "line 2: `Tropology` is not a name of a node list; write `Topology`",
+            "[Tropology] is not a section of a node list",
         ),
         (
             "[Topology]\nNode3DCFName=none.dcf\n",
@@ -517,12 +517,118 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
         ),
         (
             "[Topology]\nNodes=0\n[Topologyy]\nNodes=0\n",
-            "line 3: `Topologyy` is not a name of a node list; write `Topology`",
+            "[Topologyy] is not a section of a node list",
         ),
         ("[FileInfo]\n", "the section [Topology] is missing"),
     ] {
         fs::write(&list, text).expect("a file");
         let run = odkit(&["network", &paths[0]], "");
         assert!(run.err.contains(message), "{}", run.err);
+    }
+}
+
+/// The DCFs `n4.dcf` and `n5.dcf` of two nodes at 500 kbit/s.
+fn dcfs(folder: &Path) {
+    let eds = repository("devices/eds/GXMM.eds");
+    for id in ["4", "5"] {
+        let path = folder.join(format!("n{id}.dcf")).display().to_string();
+        let make = ["convert", &eds, "-o", &path, "--node-id", id];
+        let run = odkit(&[&make[..], &["--bit-rate", "500"]].concat(), "");
+        assert_eq!(run.code, 0, "{}", run.err);
+    }
+}
+
+/// The text of a network file after safe and after all fixes.
+fn fixed(name: &str, file: &str, text: &str) -> (String, String) {
+    let folder = folder(&format!("network-fix-{name}"), &[(file, text)]);
+    dcfs(&folder);
+    let path = folder.join(file);
+    let fix = |option| {
+        odkit(&["network", &path.display().to_string(), option], "");
+        fs::read_to_string(&path).expect("the file")
+    };
+    let safe = fix("--fix");
+    assert_eq!(fix("--fix"), safe, "a second run changes nothing");
+    let all = fix("--unsafe-fixes");
+    assert_eq!(fix("--unsafe-fixes"), all, "a second run changes nothing");
+    (safe, all)
+}
+
+#[test]
+fn fixes_of_a_node_list_touch_what_is_wrong_only() {
+    // A lower count, other node IDs and names change the meaning; a word for 1 and an equal line do not.
+    let text = "[Tropology]\r\nNodes=3 ; ours\r\nNode4Present=yes\r\nNode4DCFName=n4.dcf\r\n\
+        Node6Present=1\r\nNode6DCFName=n5.dcf\r\nNode6Name=b\r\nNode6Name=b\r\n";
+    let (safe, all) = fixed("list", "nodelist.cpj", text);
+    let same = text
+        .replace("=yes", "=1")
+        .replacen("Node6Name=b\r\n", "", 1);
+    assert_eq!(safe, same);
+    let same = same
+        .replace("Tropology", "Topology")
+        .replace("Node6", "Node5");
+    assert_eq!(all, same.replace("Nodes=3", "Nodes=0x02"));
+    // A count that is too low is safe to correct, unless a key of a node is wrong, too.
+    let text = "[Topology]\nNodes=1\nNode4Present=1\nNode4DCFName=n4.dcf\nNode5Present=1\nNode5DCFName=n5.dcf\n";
+    let (safe, _) = fixed("count", "nodelist.cpj", text);
+    assert_eq!(safe, text.replace("Nodes=1", "Nodes=0x02"));
+    let text = text.replace("Node5DCFName", "Node5DCFNam");
+    let (safe, all) = fixed("key", "nodelist.cpj", &text);
+    assert_eq!(safe, text);
+    let right = text.replace("DCFNam=", "DCFName=");
+    assert_eq!(all, right.replace("Nodes=1", "Nodes=0x02"));
+    // A file that does not exist, or a key that exists, keeps the name as it is.
+    let text = text.replace("n5.dcf", "none.dcf");
+    let (_, all) = fixed("none", "nodelist.cpj", &text);
+    assert_eq!(all, text);
+}
+
+#[test]
+fn fixes_of_a_project_touch_what_is_wrong_only() {
+    let text = "master:\n  node_id: 1\n  baudrate: 500 kbit/s # all\n  start: nein\n\
+        left: {dcf: n4.dcf, heartbeat_produce: 100, heartbeat_consumer: ja, mandatory: \"true\"}\n\
+        right:\n  dcf: n5.dcf\n  Boot: false\n  boot: 'no'\n  tpdo: {1: {Transmission: 1, enabled: vielleicht}}\n";
+    let (safe, all) = fixed("project", "bus.yml", text);
+    let same = text.replace(": ja", ": true");
+    assert_eq!(safe, same);
+    let same = same.replace("500 kbit/s", "500").replace("nein", "false");
+    let same = same
+        .replace("produce:", "producer:")
+        .replace("'no'", "false");
+    assert_eq!(all, same.replace("Transmission", "transmission"));
+    for (given, right) in [("1000000", "1000"), ("125k", "125"), ("0.5 Mbit/s", "500")] {
+        let text = format!("master: {{node_id: 1, baudrate: {given}}}\nleft: {{dcf: n4.dcf}}\n");
+        let (_, all) = fixed("rate", "bus.yml", &text);
+        assert_eq!(all, text.replace(given, right));
+    }
+    for given in ["schnell", "300", "500 x", "[1]"] {
+        let text = format!("master: {{node_id: 1, baudrate: {given}}}\nleft: {{dcf: n4.dcf}}\n");
+        let (_, all) = fixed("other-rate", "bus.yml", &text);
+        assert_eq!(all, text);
+    }
+}
+
+/// The word and its opposite: dcfgen reads both as true.
+#[test]
+fn a_word_instead_of_a_flag_is_reported() {
+    let folder = folder("network-flags", &[]);
+    dcfs(&folder);
+    for (given, severity) in [
+        ("ja", "warning[W1215]"),
+        ("nein", "error[W1215]"),
+        ("\"false\"", "error[W1215]"),
+        ("perhaps", "warning[W1215]"),
+        ("\"true\"", ""),
+        ("no", ""),
+        ("0", ""),
+    ] {
+        let text = format!("master: {{node_id: 1}}\nx:\n  dcf: n4.dcf\n  boot: {given}\n");
+        let path = folder.join("bus.yml");
+        fs::write(&path, text).expect("a file");
+        let run = odkit(&["network", &path.display().to_string()], "");
+        match severity {
+            "" => assert!(!run.err.contains("W1215"), "{given}: {}", run.err),
+            severity => is_told_at(&run.err, severity, 4),
+        }
     }
 }

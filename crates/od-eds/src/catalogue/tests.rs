@@ -232,13 +232,17 @@ fn faults_of_networks() -> Vec<Finding> {
         let text = format!("[DeviceComissioning]\nNodeID=2\nBaudrate={rate}\n");
         Ok(crate::load::parse(&text).description)
     };
-    for list in crate::network::node_lists(list, &dcf).unwrap() {
-        found.extend(list.findings);
+    for list in [list, "[Tropology]\nNode5DCFName=250\n"] {
+        let lists = crate::network::node_lists(list, &dcf).unwrap().into_iter();
+        found.extend(lists.flat_map(|list| list.findings));
     }
     let span = crate::span::Span::default();
-    let misspelled = crate::network::misspelled_key("a", "nodeid", &["node_id"], span);
+    let misspelled = crate::network::misspelled_key("a", "nodeid", &["node_id"], span, &|_| false);
     found.extend(misspelled);
-    found.extend(crate::network::unusual_bit_rate(300, span));
+    for (given, rate) in [("300", Some(300)), ("500k", None), ("fast", None)] {
+        found.extend(crate::network::unusual_bit_rate(given, rate, span));
+    }
+    found.extend(crate::network::text_of_flag("a", "boot", "ja", span));
     found.push(crate::network::no_sync("sync_window", span));
     found.push(crate::network::key_twice("sdo", span, span));
     let mut reserved = node("e", 4, waiting);

@@ -13,12 +13,13 @@ use crate::log::Log;
 use crate::rules::network::{
     w1207_bit_rate_differs, w1207_duplicate_section, w1207_key_misspelled, w1207_key_twice,
     w1207_node_count, w1207_node_id_differs, w1207_node_id_not_valid, w1207_present_not_valid,
-    w1207_same_name,
+    w1207_same_name, w1207_section_misspelled,
 };
 use crate::scan::forms::{near, nearest};
 use crate::scan::lines::{Fault, scan};
 use crate::scan::number::number;
 use crate::scan::section::{Text, TextSection};
+use crate::span::Span;
 
 /// One network of a node list.
 pub struct NodeList {
@@ -63,12 +64,10 @@ pub fn node_lists(
     if let Some(many) = many {
         return Err(many);
     }
-    if let Some(section) = sections.iter().find(|section| is_misspelled(&section.name)) {
-        return Err(misspelled(section.header.line, &section.name, "Topology"));
-    }
     let is_network = |section: &&TextSection<'_>| {
         let start = section.name.get(.."Topology".len());
-        start.is_some_and(|start| start.eq_ignore_ascii_case("Topology"))
+        let is_one = start.is_some_and(|start| start.eq_ignore_ascii_case("Topology"));
+        is_one || meant_section(&section.name).is_some()
     };
     let networks = sections.iter().filter(is_network);
     let mut known: Vec<String> = Vec::new();
@@ -81,6 +80,10 @@ pub fn node_lists(
                 list.findings.insert(0, finding);
             }
             known.push(name);
+            if let Some(right) = meant_section(&section.name) {
+                let finding = w1207_section_misspelled(&section.name, &right);
+                list.findings.insert(0, finding);
+            }
             Ok(list)
         })
         .collect::<Result<_, String>>()?;
@@ -91,11 +94,13 @@ pub fn node_lists(
     }
 }
 
-/// Returns whether this is `Topology` with wrong letters. Several networks have names with something behind it.
-fn is_misspelled(section: &str) -> bool {
+/// The name of the section that this misspells: `Topology2` for `Topologyy2`. Several networks have names with something
+/// behind it.
+fn meant_section(section: &str) -> Option<String> {
     let word = section.trim_end_matches(|c: char| !c.is_alphabetic());
     let most = if word.len() > "Topology".len() { 1 } else { 2 };
-    nearest(word, ["Topology"].into_iter(), most).is_some()
+    let right = nearest(word, ["Topology"].into_iter(), most)?;
+    Some(format!("{right}{}", &section[word.len()..]))
 }
 
 /// The keys of each node of a network, by ascending node ID.
@@ -109,7 +114,9 @@ fn listed<'a>(section: &'a TextSection<'_>, log: &mut Log) -> BTreeMap<u8, Liste
                     && !is_hexadecimal(key)
                     && let Some(right) = meant(key)
                 {
-                    log.push(w1207_key_misspelled(key, &right));
+                    let is_free = section.get(&right).is_none();
+                    let is_needed = is_free && right.ends_with("DCFName");
+                    log.push(w1207_key_misspelled(key, &right, is_needed, is_free));
                 }
                 continue;
             };
@@ -126,7 +133,7 @@ fn listed<'a>(section: &'a TextSection<'_>, log: &mut Log) -> BTreeMap<u8, Liste
                 What::File => &mut node.file,
             };
             match place {
-                Some((first, _)) => log.push(w1207_key_twice(key, first)),
+                Some(first) => log.push(w1207_key_twice(key, value, first)),
                 None => *place = Some((key, value)),
             }
         }
@@ -140,7 +147,7 @@ fn topology(
 ) -> Result<NodeList, String> {
     let mut log = Log::default();
     let nodes = listed(section, &mut log);
-    let all = nodes.len();
+    let all: Vec<u8> = nodes.keys().copied().collect();
     let mut list = NodeList {
         name: section
             .get("NetName")
@@ -166,10 +173,9 @@ fn topology(
                 if let Some(key) = keys.clone().find(|key| key.eq_ignore_ascii_case(&right)) {
                     return Err(format!("line {}: {right} is empty", key.span.line));
                 }
-                return Err(match keys.find(|key| meant(key).as_ref() == Some(&right)) {
-                    Some(key) => misspelled(key.span.line, key, &right),
-                    None => format!("line {}: {right} is missing", present.span.line),
-                });
+                if !keys.any(|key| meant(key).as_ref() == Some(&right)) {
+                    return Err(format!("line {}: {right} is missing", present.span.line));
+                }
             }
             continue;
         };
@@ -178,7 +184,12 @@ fn topology(
         let description =
             load(&path).map_err(|why| format!("line {line}: node {id}: {path}: {why}"))?;
         if let Some(own) = description.commissioned_node_id().filter(|own| *own != id) {
-            log.push(w1207_node_id_differs(file, id, own));
+            let keys = if all.contains(&own) {
+                Vec::new()
+            } else {
+                renumbered(section, id, own)
+            };
+            log.push(w1207_node_id_differs(file, id, own, &keys));
         }
         let rate = description.commissioning().and_then(|own| own.bit_rate);
         if let Some(rate) = rate.map(u32::from) {
@@ -205,13 +216,14 @@ fn topology(
     }
     let count = section.get("Nodes").filter(|count| !count.is_empty());
     // Some tools count the nodes that are not present, too.
-    let counts = [list.nodes.len(), all].map(|count| Some(count as i128));
+    let counts = [list.nodes.len(), all.len()].map(|count| Some(count as i128));
+    list.findings = log.finish();
     if let Some(given) = count
         && !counts.contains(&number(given))
     {
-        log.push(w1207_node_count(given, list.nodes.len()));
+        let finding = w1207_node_count(given, list.nodes.len(), list.findings.is_empty());
+        list.findings.push(finding);
     }
-    list.findings = log.finish();
     Ok(list)
 }
 
@@ -219,9 +231,17 @@ fn value_of<'a>(pair: Option<Pair<'a>>) -> Option<&'a Text<'a>> {
     pair.map(|(_, value)| value)
 }
 
-/// An error about a name that misspells another.
-fn misspelled(line: u32, given: &str, right: &str) -> String {
-    format!("line {line}: `{given}` is not a name of a node list; write `{right}`")
+/// The keys of a node, each with the key of a node with another node ID.
+fn renumbered(section: &TextSection<'_>, id: u8, own: u8) -> Vec<(Span, String)> {
+    let start = format!("node{id}");
+    let keys = section.pairs.iter().map(|(key, _)| key);
+    let own_key = |key: &Text<'_>| {
+        let rest = key.get(start.len()..)?;
+        let is_of_node = key.to_ascii_lowercase().starts_with(&start)
+            && rest.starts_with(|c: char| c.is_ascii_alphabetic());
+        is_of_node.then(|| (key.span, format!("{}{own}{rest}", &key[.."Node".len()])))
+    };
+    keys.filter_map(own_key).collect()
 }
 
 /// The key of CiA 306-3 that a key misspells: `Node5DCFName` for `Node5DCFNam`.

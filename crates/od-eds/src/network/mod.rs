@@ -19,7 +19,8 @@ mod saved;
 mod write;
 
 pub use crate::rules::network::{
-    key_twice, misspelled_key, no_sync, not_mappable, read_only, unfit_values, unusual_bit_rate,
+    key_twice, misspelled_key, no_sync, not_mappable, read_only, text_of_flag, unfit_values,
+    unusual_bit_rate,
 };
 pub use concise::{Write, bytes};
 pub use configure::{Configuration, ProjectSettings, Unfit, configure};

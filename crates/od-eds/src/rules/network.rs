@@ -1,13 +1,16 @@
 //! 12: nodes of a network that do not fit together: rules that `network::check` and the readers of networks report.
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::catalogue::{Eds, say};
-use crate::finding::{Finding, Form, Rule, Severity::Error};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
+use crate::fix::Fix;
 use crate::network::BIT_RATES;
 use crate::network::node::{Node, Setting};
 use crate::scan::forms::near;
+use crate::scan::number::{before_comment, number};
 use crate::scan::section::Text;
 use crate::span::Span;
 use crate::subject::shown;
@@ -28,6 +31,7 @@ table! {
     E1212 (example)
     W1213 (example)
     E1214 (example)
+    W1215 (example)
 }
 
 pub(crate) static E1201: Rule = Rule {
@@ -181,8 +185,9 @@ pub(crate) static W1207: Rule = Rule {
     example: "Node5DCFName=drive.dcf, and NodeID=6 in drive.dcf",
     says: "Nodes is {given}, but {count:node is|nodes are} present",
     help: "write `Nodes=0x{count:02X}`",
+    fixability: Fixability::Either,
     also: &[
-        NODE_ID, PRESENT, OTHER_ID, BIT_RATE, KEY, NAME, SECTION, TWICE,
+        NODE_ID, PRESENT, OTHER_ID, RENUMBER, BIT_RATE, KEY, TOPOLOGY, NAME, SECTION, TWICE,
     ],
     ..Rule::of("W1207")
 };
@@ -205,6 +210,12 @@ const OTHER_ID: Form = Form {
     help: "use one node ID in both files",
 };
 
+/// Sentence for the NodeID of a DCF that no node of the list has.
+const RENUMBER: Form = Form {
+    help: "write `Node{own}DCFName`, or use one node ID in both files",
+    ..OTHER_ID
+};
+
 /// Sentence for the bit rate of a DCF.
 const BIT_RATE: Form = Form {
     says: "Baudrate is {own} in the DCF, but {first} in that of an earlier node",
@@ -215,6 +226,12 @@ const BIT_RATE: Form = Form {
 const KEY: Form = Form {
     says: "`{key}` is not a key of a node list",
     help: "write `{right}`",
+};
+
+/// Sentence for a section that looks like one with nodes.
+const TOPOLOGY: Form = Form {
+    says: "[{given}] is not a section of a node list; odkit reads it as [{right}]",
+    help: "write `[{right}]`",
 };
 
 /// Sentence for the name of two nodes.
@@ -235,16 +252,48 @@ const TWICE: Form = Form {
     help: "remove one of the two lines",
 };
 
-pub(crate) fn w1207_key_twice(key: &Text<'_>, first: &Text<'_>) -> Finding {
+/// The finding about a key that the section has before with the value `first`; `value` is that of the second.
+pub(crate) fn w1207_key_twice(key: &Text<'_>, value: &Text<'_>, first: &Pair<'_>) -> Finding {
     let finding = W1207.at(key.span).form(&TWICE);
     let finding = finding.fact("key", key.as_ref());
-    finding.related(first.span, "first given here")
+    let finding = finding.related(first.0.span, "first given here");
+    if value == first.1 {
+        finding.fix(Fix::safe().remove_line(key.span))
+    } else {
+        finding
+    }
 }
 
-/// The finding about a key that is probably misspelled, with the right one.
-pub(crate) fn w1207_key_misspelled(key: &Text<'_>, right: &str) -> Finding {
+/// A key of a node list and its value.
+type Pair<'a> = (&'a Text<'a>, &'a Text<'a>);
+
+/// The finding about a key that is probably misspelled, with the right one. It `is_needed` if its node is not complete
+/// without it, and `is_free` if the section does not have the right one.
+pub(crate) fn w1207_key_misspelled(
+    key: &Text<'_>,
+    right: &str,
+    is_needed: bool,
+    is_free: bool,
+) -> Finding {
     let finding = W1207.at(key.span).form(&KEY).fact("key", key.as_ref());
-    finding.fact("right", right)
+    let finding = finding.fact("right", right);
+    let finding = if is_free {
+        finding.fix(Fix::unsafe_fix().replace(key.span, right))
+    } else {
+        finding
+    };
+    if is_needed {
+        finding.severity_of(Error)
+    } else {
+        finding
+    }
+}
+
+/// The finding about a section whose name is probably misspelled, with the right name.
+pub(crate) fn w1207_section_misspelled(name: &Text<'_>, right: &str) -> Finding {
+    let finding = W1207.given(name).form(&TOPOLOGY).severity_of(Error);
+    let fix = Fix::unsafe_fix().replace(name.span, right);
+    finding.fact("right", right).fix(fix)
 }
 
 pub(crate) fn w1207_same_name(name: &Text<'_>, id: u8, other: u8) -> Finding {
@@ -257,8 +306,25 @@ pub(crate) fn w1207_duplicate_section(header: Span, name: &Text<'_>) -> Finding 
     finding.fact("given", name.as_ref())
 }
 
-pub(crate) fn w1207_node_count(given: &Text<'_>, count: usize) -> Finding {
-    W1207.given(given).fact("count", count)
+/// The finding about `Nodes`. A larger count is only safe if it is `certain`: no key of a node is wrong. A lower one never
+/// is: a node may be missing.
+pub(crate) fn w1207_node_count(given: &Text<'_>, count: usize, certain: bool) -> Finding {
+    let grows = number(given).is_some_and(|given| given < count as i128);
+    let fix = if grows && certain {
+        Fix::safe()
+    } else {
+        Fix::unsafe_fix()
+    };
+    let finding = W1207.given(given).fact("count", count);
+    finding.fix(fix.replace(without_comment(given), format!("0x{count:02X}")))
+}
+
+/// The part of a value before a comment.
+fn without_comment(given: &Text<'_>) -> Span {
+    Span {
+        end: given.span.start + before_comment(given).len() as u32,
+        ..given.span
+    }
 }
 
 pub(crate) fn w1207_node_id_not_valid(key: &Text<'_>) -> Finding {
@@ -267,12 +333,46 @@ pub(crate) fn w1207_node_id_not_valid(key: &Text<'_>) -> Finding {
 }
 
 pub(crate) fn w1207_present_not_valid(given: &Text<'_>, id: u8) -> Finding {
-    W1207.given(given).form(&PRESENT).fact("id", id)
+    let finding = W1207.given(given).form(&PRESENT).fact("id", id);
+    let place = without_comment(given);
+    match word(before_comment(given)) {
+        Some(true) => finding.fix(Fix::safe().replace(place, "1")),
+        Some(false) => finding.fix(Fix::unsafe_fix().replace(place, "0")),
+        None => finding,
+    }
 }
 
-pub(crate) fn w1207_node_id_differs(file: &Text<'_>, id: u8, own: u8) -> Finding {
-    let finding = W1207.at(file.span).form(&OTHER_ID).severity_of(Error);
-    finding.fact("id", id).fact("own", own)
+/// The meaning of a word that people write for a flag, in English and in German.
+fn word(given: &str) -> Option<bool> {
+    let word = given.trim().to_ascii_lowercase();
+    match word.as_str() {
+        "yes" | "y" | "true" | "on" | "enable" | "enabled" | "1" | "ja" | "wahr" | "ein" => {
+            Some(true)
+        }
+        "no" | "n" | "false" | "off" | "none" | "disable" | "disabled" | "0" | "nein"
+        | "falsch" | "aus" => Some(false),
+        _ => None,
+    }
+}
+
+/// The finding about a DCF whose NodeID differs; `keys` are those of the node in the list, each with the key for the node
+/// ID of the DCF. They are empty if the list has such a node.
+pub(crate) fn w1207_node_id_differs(
+    file: &Text<'_>,
+    id: u8,
+    own: u8,
+    keys: &[(Span, String)],
+) -> Finding {
+    let form = if keys.is_empty() {
+        &OTHER_ID
+    } else {
+        &RENUMBER
+    };
+    let finding = W1207.at(file.span).form(form).severity_of(Error);
+    let fix = keys.iter().fold(Fix::unsafe_fix(), |fix, (key, right)| {
+        fix.replace(*key, right.as_str())
+    });
+    finding.fact("id", id).fact("own", own).fix(fix)
 }
 
 pub(crate) fn w1207_bit_rate_differs(file: &Text<'_>, own: u32, first: u32) -> Finding {
@@ -287,6 +387,7 @@ pub(crate) static W1208: Rule = Rule {
     example: "heartbeat_produce: 100",
     says: "{node}: `{given}` is not a key of dcfgen",
     help: "write `{right}`",
+    fixability: Fixability::Unsafe,
     also: &[TWICE_IN_PROJECT],
     ..Rule::of("W1208")
 };
@@ -305,15 +406,27 @@ pub fn key_twice(given: &str, span: Span, first: Span) -> Finding {
         .related(first, "first given here")
 }
 
-/// Returns the finding about a key of a node at `span`, if it looks like one that dcfgen knows.
-pub fn misspelled_key(node: &str, given: &str, known: &[&str], span: Span) -> Option<Finding> {
+/// Returns the finding about a key of a node at `span`, if it looks like one that dcfgen knows; `has` tells which keys the
+/// node has.
+pub fn misspelled_key(
+    node: &str,
+    given: &str,
+    known: &[&str],
+    span: Span,
+    has: &dyn Fn(&str) -> bool,
+) -> Option<Finding> {
     let mut capitals = known.iter().copied();
     let right = match capitals.find(|own| own.eq_ignore_ascii_case(given)) {
         Some(own) => Some(own).filter(|_| !known.contains(&given)),
         None => near(given, known.iter().copied()),
     }?;
     let finding = W1208.at(span).fact("node", node).fact("given", given);
-    Some(finding.fact("right", right))
+    let finding = finding.fact("right", right);
+    Some(if has(right) {
+        finding
+    } else {
+        finding.fix(Fix::unsafe_fix().replace(span, right))
+    })
 }
 
 pub(crate) static E1209: Rule = Rule {
@@ -383,13 +496,58 @@ pub(crate) static W1211: Rule = Rule {
     example: "baudrate: 300",
     says: "the bit rate is {rate} kbit/s",
     help: "write 10, 20, 50, 125, 250, 500, 800 or 1000, the bit rate of the nodes",
+    also: &[BIT_RATE_WITH_UNIT, BIT_RATE_WORD],
+    fixability: Fixability::Unsafe,
     ..Rule::of("W1211")
 };
 
-/// Returns the finding about the bit rate of a project in kbit/s at `span`, if CiA 301 does not have it.
-pub fn unusual_bit_rate(rate: u32, span: Span) -> Option<Finding> {
-    let finding = W1211.at(span).fact("rate", i128::from(rate));
-    (!BIT_RATES.contains(&rate)).then_some(finding)
+/// Sentence for a bit rate in bit/s.
+const BIT_RATE_WITH_UNIT: Form = Form {
+    says: "the bit rate is `{given}`, but its unit is kbit/s",
+    help: "write {right}",
+};
+
+/// Sentence for a bit rate that is not a number.
+const BIT_RATE_WORD: Form = Form {
+    says: "the bit rate `{given}` is not a number",
+    ..Form::OWN
+};
+
+/// Returns the finding about the bit rate of a project, which is in kbit/s, at `span`, if CiA 301 does not have it. `rate`
+/// is its number, if it is one.
+pub fn unusual_bit_rate(given: &str, rate: Option<u32>, span: Span) -> Option<Finding> {
+    if rate.is_some_and(|rate| BIT_RATES.contains(&rate)) {
+        return None;
+    }
+    let finding = W1211.at(span);
+    let finding = match rate {
+        Some(_) => finding,
+        None => finding.severity_of(Error),
+    };
+    Some(match (meant_bit_rate(given), rate) {
+        (Some(right), _) => {
+            let fix = Fix::unsafe_fix().replace(span, format!("{right}"));
+            let finding = finding.form(&BIT_RATE_WITH_UNIT).fact("given", given);
+            finding.fact("right", right).fix(fix)
+        }
+        (None, Some(rate)) => finding.fact("rate", i128::from(rate)),
+        (None, None) => finding.form(&BIT_RATE_WORD).fact("given", given),
+    })
+}
+
+/// The bit rate of CiA 301 in kbit/s that a text with a unit means: 500 for `500000`, `500k`, `500 kbit/s` or `0.5M`.
+fn meant_bit_rate(given: &str) -> Option<u32> {
+    let end = given.find(|c: char| !c.is_ascii_digit() && c != '.' && c != '_');
+    let (digits, unit) = given.split_at(end.unwrap_or(given.len()));
+    let number: f64 = digits.replace('_', "").parse().ok()?;
+    let kilobits = match unit.trim_start().chars().next() {
+        Some('k' | 'K') => number,
+        Some('m' | 'M') => number * 1000.0,
+        Some('b' | 'B') | None => number / 1000.0,
+        Some(_) => return None,
+    };
+    let mut known = BIT_RATES.iter().copied();
+    known.find(|rate| f64::from(*rate) == kilobits)
 }
 
 pub(crate) static E1212: Rule = Rule {
@@ -474,4 +632,34 @@ pub fn unfit_values(node: &Node, place: &dyn Fn(Address) -> Span) -> Vec<Finding
         Some(finding.fact("why", say(&found, &Eds).message))
     })
     .collect()
+}
+
+pub(crate) static W1215: Rule = Rule {
+    title: "text in a project instead of a flag",
+    why: "dcfgen reads each text that is not empty as true, also `\"false\"` and `nein`.",
+    source: "dcf-tools, dcfgen; YAML 1.1, bool",
+    example: "mandatory: nein",
+    says: "{node}: {key} is the text `{given}`, which dcfgen reads as true",
+    help: "write `true` or `false`",
+    fixability: Fixability::Either,
+    ..Rule::of("W1215")
+};
+
+/// Returns the finding about a text at `span` instead of a flag, unless it is a quoted word for true. The fix is safe if
+/// the text means what dcfgen reads.
+pub fn text_of_flag(node: &str, key: &str, given: &str, span: Span) -> Option<Finding> {
+    let is_true = |word: &str| word.eq_ignore_ascii_case(given.trim());
+    if ["true", "yes", "on"].into_iter().any(is_true) {
+        return None;
+    }
+    let finding = W1215.at(span).fact("node", node).fact("key", key);
+    let finding = finding.fact("given", given);
+    Some(match word(given) {
+        Some(true) => finding.fix(Fix::safe().replace(span, "true")),
+        Some(false) => {
+            let fix = Fix::unsafe_fix().replace(span, "false");
+            finding.severity_of(Error).fix(fix)
+        }
+        None => finding,
+    })
 }

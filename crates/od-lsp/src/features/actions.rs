@@ -51,7 +51,7 @@ pub(crate) fn of(
         fix.is_some_and(|fix| fix.applicability == Applicability::Safe)
     };
     if wants(FIX_ALL) && seen.findings.iter().any(is_safe) {
-        let now = (!later).then(|| fix_all(file, host));
+        let now = (!later).then(|| fix_all(file, seen, host));
         // A fix that would break the fix of another finding is left out.
         if now.as_ref().is_none_or(|edit| !edit.changes.is_empty()) {
             actions.push(CodeAction {
@@ -68,7 +68,7 @@ pub(crate) fn of(
 }
 
 /// The edit that applies all safe fixes, as `odkit check --fix` does.
-pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
+pub(crate) fn fix_all(file: &File, seen: &Seen, host: &dyn Host) -> WorkspaceEdit {
     let find = |document: &Document| {
         let mut findings = document.load().findings;
         // Errors in the settings are shown when the file is checked.
@@ -79,6 +79,11 @@ pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
         Kind::Eds | Kind::Xdd => {
             let done = fix::fix(&file.document(), Applicability::Safe, find);
             file::edits(file, &format!("{}{}", file.mark(), done.document.text()))
+        }
+        // Their findings need other files, so that the fixes are those of one round.
+        Kind::Network => {
+            let edits = fix::plan(file.str(), &seen.findings, Applicability::Safe);
+            file::edits(file, &fix::apply(file.str(), &edits))
         }
         Kind::Overlay | Kind::Rust => Vec::new(),
     };

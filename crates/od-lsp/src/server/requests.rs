@@ -228,7 +228,7 @@ impl Server {
             && !action.contains_key("edit")
         {
             let (open, host) = self.open(&DocumentId { uri })?;
-            let edit = actions::fix_all(&open.file, host);
+            let edit = actions::fix_all(&open.file, open.file.seen(host), host);
             let edit = serde_json::to_value(edit).map_err(|error| Fault::params(&error))?;
             action.insert("edit".into(), edit);
         }

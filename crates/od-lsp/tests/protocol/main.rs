@@ -4,6 +4,7 @@ mod asking;
 mod calls;
 mod findings;
 mod life;
+mod networks;
 mod support;
 mod writing;
 mod xdd;

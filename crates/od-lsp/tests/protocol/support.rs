@@ -27,6 +27,20 @@ impl Host for Files {
         findings.retain(|finding| !path.contains("quiet") || finding.code() != "E0412");
         Ok(())
     }
+
+    fn network(
+        &self,
+        path: &str,
+        text: &str,
+        find: &dyn Fn(&str) -> Option<Vec<u8>>,
+    ) -> Result<Vec<Finding>, String> {
+        let (folder, _) = path.rsplit_once('/').unwrap_or_default();
+        let lists = od_eds::network::node_lists(text, &|name| {
+            let bytes = find(&format!("{folder}/{name}")).ok_or("it cannot be read")?;
+            Ok(od_eds::parse(od_eds::Document::new(bytes).text()).description)
+        })?;
+        Ok(lists.into_iter().flat_map(|list| list.findings).collect())
+    }
 }
 
 pub(crate) struct Client {
