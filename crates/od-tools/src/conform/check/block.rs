@@ -161,6 +161,11 @@ fn same(dut: &mut Dut<'_>, how: How) -> Checked {
     dut.still_serves()
 }
 
+/// Fails unless a block upload without a checksum has these bytes.
+pub(super) fn has(dut: &mut Dut<'_>, address: Address, bytes: &[u8]) -> Checked {
+    carries(dut, address, bytes, PLAIN)
+}
+
 /// Fails unless a block upload has these bytes.
 fn carries(dut: &mut Dut<'_>, address: Address, bytes: &[u8], how: How) -> Checked {
     let again = read(dut, address, how)?;
@@ -439,7 +444,16 @@ fn write(
 
 fn written(dut: &mut Dut<'_>, how: How) -> Checked {
     let (address, bytes) = writable(dut)?;
-    if let Err(code) = write(dut, (address, &bytes), how, 0)? {
+    puts(dut, address, &bytes, how)
+}
+
+/// A block download without a checksum, and an upload of its value.
+pub(super) fn writes(dut: &mut Dut<'_>, address: Address, bytes: &[u8]) -> Checked {
+    puts(dut, address, bytes, PLAIN)
+}
+
+fn puts(dut: &mut Dut<'_>, address: Address, bytes: &[u8], how: How) -> Checked {
+    if let Err(code) = write(dut, (address, bytes), how, 0)? {
         return fail(
             format!("a block download to {address}"),
             format!("{} came", abort_text(code)),
@@ -448,7 +462,7 @@ fn written(dut: &mut Dut<'_>, how: How) -> Checked {
     let after = dut.read(address)?;
     ensure(
         after == bytes,
-        values::hex(&bytes),
+        values::hex(bytes),
         format!("{} was read", values::hex(&after)),
     )
 }

@@ -467,9 +467,27 @@ pub(super) fn global_silent(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// The slave leaves the configuration state without a response and without a boot-up message.
+/// The slave leaves the configuration state without a response and without a boot-up message, also with a node ID that a
+/// reset makes active.
 pub(super) fn leave_silent(dut: &mut Dut<'_>) -> Checked {
-    configured(dut)?;
+    let own = dut.node.raw();
+    let other = if own == 100 { 101 } else { 100 };
+    for node_id in [None, Some(own), Some(other)] {
+        dut.nmt(Command::EnterPreOperational)?;
+        configured(dut)?;
+        if let Some(node_id) = node_id {
+            ask(dut, Request::ConfigureNodeId { node_id })?;
+        }
+        let done = leaves(dut);
+        dut.fault(done)?;
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    with(dut, |dut, _| {
+        ask(dut, Request::ConfigureNodeId { node_id: own }).map(drop)
+    })
+}
+
+fn leaves(dut: &mut Dut<'_>) -> Checked {
     dut.drain()?;
     let request = Request::SwitchGlobal {
         configuration: false,

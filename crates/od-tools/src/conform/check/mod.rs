@@ -12,6 +12,7 @@ mod emergency;
 mod encoder;
 mod fault;
 mod file;
+mod guarding;
 mod heartbeat;
 mod homing;
 mod identify;
@@ -27,6 +28,7 @@ mod nmt;
 mod objects;
 mod outputs;
 mod preset;
+mod program;
 mod rpdo;
 mod saved;
 mod segments;
@@ -181,6 +183,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.34: The node has the SDO clients of the EDS from 1280h on."),
         check("sdo-clients-valid", servers::clients_valid,
             "CiA 301 7.5.2.34: While an SDO client is not valid its COB-IDs can have other CAN-IDs; then it can be made valid, and keeps them.").applies("1280h:01 rw, 1280h:02 rw"),
+        check("sdo-each-after-each", transfer::each_after_each,
+            "CiA 301 7.2.4.3: Each kind of SDO transfer is right after each other kind, and after one that the client aborted."),
         check("sdo-extended-frame", transfer::extended_frame,
             "CiA 301 7.3.3: A frame with the same CAN-ID in 29 bits is not a request."),
         check("sdo-other-node", transfer::other_node,
@@ -350,27 +354,27 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("heartbeat-reset", heartbeat::over_reset,
             "CiA 301 7.3.2.2.1: After reset communication the heartbeat is what 1017h says then.").applies("1017h rw").needs("reset"),
         script("guarding-answer", include_str!("../cases/guarding-answer.script")),
-        check("guarding-toggle", heartbeat::guarding_toggle,
+        check("guarding-toggle", guarding::toggle,
             "CiA 301 7.2.8.3.2.1: The toggle bit changes with each response, in each NMT state.").applies("100Ch, 100Dh"),
-        check("guarding-after-reset", heartbeat::guarding_after_reset,
+        check("guarding-after-reset", guarding::after_reset,
             "CiA 301 7.2.8.3.2.1: After reset communication the toggle bit begins with 0.").applies("100Ch, 100Dh").needs("reset"),
-        check("guarding-states", heartbeat::guarding_states,
+        check("guarding-states", guarding::states,
             "CiA 301 7.2.8.3.2.1: The response contains the NMT state.").applies("100Ch, 100Dh"),
-        check("guarding-other-node", heartbeat::guarding_other_node,
+        check("guarding-other-node", guarding::other_node,
             "CiA 301 7.2.8.3.2.1: A guarding request to another node has no response and no EMCY message, and does not change the toggle bit.").applies("100Ch, 100Dh"),
-        check("guarding-objects", heartbeat::guarding_objects,
+        check("guarding-objects", guarding::objects,
             "CiA 301 7.5.2.11: 100Ch and 100Dh can be written.").applies("100Ch, 100Dh"),
-        check("guarding-life", heartbeat::life_guarding,
+        check("guarding-life", guarding::life,
             "CiA 301 7.2.8.3.2.1: Without requests for the life time there is EMCY 8130h.").applies("100Ch rw, 100Dh rw, 1014h"),
-        check("guarding-life-waits", heartbeat::life_guarding_waits,
+        check("guarding-life-waits", guarding::life_waits,
             "CiA 301 7.2.8.3.2.1: Life guarding begins with the first request.").applies("100Ch rw, 100Dh rw, 1014h"),
-        check("guarding-life-off", heartbeat::life_guarding_off,
+        check("guarding-life-off", guarding::life_off,
             "CiA 301 7.2.8.3.2.1: With 0 in 100Ch or in 100Dh there is no life guarding.").applies("100Ch rw, 100Dh rw, 1014h"),
-        check("guarding-life-reset", heartbeat::life_guarding_reset,
+        check("guarding-life-reset", guarding::life_reset,
             "CiA 301 7.2.8.3.2.1: After reset communication life guarding begins with the first request again.").applies("100Ch rw, 100Dh rw, 1014h").needs("reset"),
-        check("guarding-life-ends", heartbeat::life_guarding_ends,
+        check("guarding-life-ends", guarding::life_ends,
             "CiA 301 7.5.2.2: When guarding requests come again, 1001h has no bit of the life guarding error.").applies("100Ch rw, 100Dh rw, 1014h"),
-        check("guarding-not-with-heartbeat", heartbeat::heartbeat_excludes,
+        check("guarding-not-with-heartbeat", guarding::heartbeat_excludes,
             "CiA 301 7.2.8.3.2.2: With a heartbeat there is no response to node guarding.").applies("1017h rw, 100Ch"),
     ]),
     ("PDO", &[
@@ -939,6 +943,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.4: A write of a sub-object changes it, but no other sub-object of its object, and not the same one of the next objects."),
         check("object-operational", kept::in_operational,
             "CiA 301 7.3.2.2.3: Every parameter and the identity have the same value in Operational as in Pre-operational."),
+        check("program-status", program::status,
+            "CiA 302-3 1F51h, 1F57h: Each program is stopped or started, and none is being written."),
         check("object-default", objects::after_restore,
             "CiA 306-1: After a restore and a reset every value is the default of the EDS.").applies("1011h:01, 1010h:01").needs("reset, store"),
     ]),

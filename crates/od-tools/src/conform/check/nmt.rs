@@ -5,7 +5,7 @@ use od_wire::nmt::{Command, Repr};
 use od_wire::{CanId, CobId, Frame};
 
 use super::servers::Channel;
-use super::transfer::{another_value, optional};
+use super::transfer::{another_value, kinds, optional};
 use super::{block, heartbeat, segments, transmit};
 use crate::conform::dut::{Dut, QUIET, is_data, state_name};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
@@ -512,27 +512,25 @@ pub(super) fn long_command(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
+/// Each kind of SDO transfer that the node has in Pre-operational is right in Operational, too.
 pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {
-    let by_block = block::serves(dut)?;
-    dut.nmt(Command::Start)?;
-    dut.still_serves()?;
-    if by_block && !block::serves(dut)? {
-        return fail(
-            "a block upload in Operational, as in Pre-operational",
-            "the node refuses block transfers",
-        );
-    }
+    let mut all = kinds(dut)?;
     // A device may refuse to change the parameters of a PDO in this state.
-    if let Some((address, _)) = another_value(dut)?
-        && address.index < 0x1400
-    {
-        let present = dut.read(address)?;
-        dut.write(address, &present)?;
+    if another_value(dut)?.is_some_and(|(address, _)| address.index >= 0x1400) {
+        all.retain(|(name, _)| !name.starts_with("a download"));
     }
-    match segments::long_value(dut) {
-        Err(End::NotApplicable(_)) => Ok(()),
-        found => found.map(drop),
+    dut.nmt(Command::Start)?;
+    for (name, act) in all {
+        let done = match act(dut) {
+            Err(End::NotApplicable(_)) => fail(
+                format!("{name} in Operational, as in Pre-operational"),
+                "the node refuses it",
+            ),
+            done => done,
+        };
+        dut.fault(done)?;
     }
+    Ok(())
 }
 
 pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {

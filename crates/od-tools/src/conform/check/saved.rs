@@ -5,7 +5,8 @@ use od_wire::nmt::Command;
 
 use super::content::carries_values;
 use super::each_rpdo::{Changed, outputs, takes, valid, with_another};
-use super::heartbeat::{emcy, guarded, reports_silence, sends_emcy, watched, without_heartbeat};
+use super::guarding::{guarded, without_heartbeat};
+use super::heartbeat::{emcy, reports_silence, sends_emcy, watched};
 use super::mapping::on;
 use super::store::command;
 use super::transmit::{Tpdo, is_on, timed_on};

@@ -125,7 +125,14 @@ pub(super) fn download_two(dut: &mut Dut<'_>) -> Checked {
     written(dut, address, &before, before.len() / 2, true)
 }
 
-fn written(dut: &mut Dut<'_>, address: Address, bytes: &[u8], step: usize, sized: bool) -> Checked {
+/// A download by segments of `step` bytes, and an upload of its value.
+pub(super) fn written(
+    dut: &mut Dut<'_>,
+    address: Address,
+    bytes: &[u8],
+    step: usize,
+    sized: bool,
+) -> Checked {
     if let Err(code) = dut.download_segments(address, bytes, sized, step)? {
         need_not(dut, code)?;
         let got = format!("{} came", abort_text(code));
@@ -178,7 +185,7 @@ pub(super) fn download_long(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// An object with a value of more than seven bytes that can be written.
-fn long_writable(dut: &mut Dut<'_>) -> Checked<Option<(Address, Vec<u8>)>> {
+pub(super) fn long_writable(dut: &mut Dut<'_>) -> Checked<Option<(Address, Vec<u8>)>> {
     for entry in dut.eds.writable() {
         if entry.data_type.size().is_some_and(|size| size <= 4) {
             continue;

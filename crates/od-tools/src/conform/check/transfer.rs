@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use od_model::{Access, Address, Entry, Group, values};
+use od_model::{Access, Address, DataType, Entry, Group, values};
 use od_wire::AbortCode::{
     InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
     ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
@@ -515,6 +515,91 @@ pub(super) fn abort_names_object(dut: &mut Dut<'_>) -> Checked {
             && answer[1..3] == address.index.to_le_bytes()
             && answer[3] == address.sub;
         ensure(is_right, format!("an abort that names {address}"), got)?;
+    }
+    Ok(())
+}
+
+/// A transfer with its own object and value.
+pub(super) type Act = Box<dyn Fn(&mut Dut<'_>) -> Checked>;
+
+/// Each kind of transfer that the node has.
+pub(super) fn kinds(dut: &mut Dut<'_>) -> Checked<Vec<(&'static str, Act)>> {
+    let missing = Address::new(0x1000, 0x7F);
+    let mut all: Vec<(&str, Act)> = vec![
+        ("an upload", Box::new(|dut| dut.still_serves())),
+        (
+            "a refused upload",
+            Box::new(move |dut| dut.refuses(request(0x40, missing, [0; 4]), &[NoSubIndex])),
+        ),
+    ];
+    if let Some((address, bytes)) = optional(segments::short_value(dut))? {
+        let value = bytes.clone();
+        let write = move |dut: &mut Dut<'_>| dut.write(address, &value);
+        all.push(("a download", Box::new(write)));
+        let write =
+            move |dut: &mut Dut<'_>| segments::written(dut, address, &bytes, bytes.len() / 2, true);
+        all.push(("a download by segments", Box::new(write)));
+    }
+    if let Some((address, bytes)) = optional(segments::long_value(dut))? {
+        let value = bytes.clone();
+        let read = move |dut: &mut Dut<'_>| dut.is_as_written(address, &value);
+        all.push(("an upload by segments", Box::new(read)));
+        let read = move |dut: &mut Dut<'_>| block::has(dut, address, &bytes);
+        all.push(("an upload by block", Box::new(read)));
+        let break_off = move |dut: &mut Dut<'_>| {
+            segments::begin(dut, address)?;
+            dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+            let abort = request(0x80, address, [0, 0, 0, 8]);
+            dut.send(Frame::full(dut.node.plus(0x600), abort))
+        };
+        all.push(("an upload that the client aborts", Box::new(break_off)));
+    }
+    if let Some((address, bytes)) = segments::long_writable(dut)? {
+        dut.keep(address)?;
+        // Another text and then its own.
+        let entry = dut.eds.entry(address.index, address.sub);
+        let is_text = entry.is_some_and(|entry| entry.data_type == DataType::VisibleString);
+        let mut other = bytes.clone();
+        other
+            .iter_mut()
+            .take(1)
+            .for_each(|byte| *byte ^= u8::from(is_text) << 5);
+        let both = [other, bytes];
+        let values = both.clone();
+        let write = move |dut: &mut Dut<'_>| {
+            let mut values = values.iter();
+            values.try_for_each(|value| segments::written(dut, address, value, 7, true))
+        };
+        all.push(("a long download by segments", Box::new(write)));
+        let write = move |dut: &mut Dut<'_>| {
+            let mut values = both.iter();
+            values.try_for_each(|value| block::writes(dut, address, value))
+        };
+        all.push(("a download by block", Box::new(write)));
+    }
+    let mut here = Vec::new();
+    for (name, act) in all {
+        let done = optional(act(dut)).map(|done| here.extend(done.map(|()| (name, act))));
+        dut.fault(done)?;
+    }
+    Ok(here)
+}
+
+/// Each kind of transfer directly after each other one, and twice.
+pub(super) fn each_after_each(dut: &mut Dut<'_>) -> Checked {
+    let all = kinds(dut)?;
+    for (before, first) in &all {
+        for (name, second) in &all {
+            let done = first(dut).and_then(|()| second(dut));
+            let done = done.map_err(|end| match end {
+                End::Fail { expected, got } => End::Fail {
+                    expected: format!("{expected}, in {name} after {before}"),
+                    got,
+                },
+                end => end,
+            });
+            dut.fault(done)?;
+        }
     }
     Ok(())
 }
