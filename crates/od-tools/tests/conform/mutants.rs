@@ -146,6 +146,8 @@ impl Bench {
                 ("out11", "in10"),
                 ("aout1", "ain1"),
                 ("aout2", "ain2"),
+                ("aout1", "ain3"),
+                ("aout2", "ain4"),
             ] {
                 bus.connect((number, output), (number, input))
                     .expect("a wire");

@@ -488,5 +488,14 @@ fn is_in_time(dut: &mut Dut<'_>, pdo: &Tpdo, changed: &Changed, millis: u16) -> 
             return fail(expected, "none came");
         }
     }
+    // There is no PDO in Pre-operational, and the next start begins as the first one.
+    for command in [Command::EnterPreOperational, Command::Start] {
+        dut.nmt(command)?;
+        if let Some(frame) = late(dut, 2 * time)? {
+            let expected =
+                format!("no EMCY 8250h in Pre-operational, and none before {name} after it");
+            return fail(expected, format!("{frame} came"));
+        }
+    }
     Ok(())
 }

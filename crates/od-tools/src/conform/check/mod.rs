@@ -5,6 +5,7 @@ mod axis;
 mod block;
 mod cob_ids;
 mod content;
+mod diagnosis;
 mod drive;
 mod each_rpdo;
 mod each_tpdo;
@@ -835,6 +836,12 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "Manual 000, object 2800h: A TPDO is repeated as often as its counter says while the position stays the same.").applies("cia406, 2800h rw, 1018h:02"),
         check("encoder-gear", preset::gear,
             "Manuals 001 and 003, object 2001h: The electronic gear gives the position or 6001h as its numerator and denominator say.").applies("cia406, 2001h:01 rw, 6002h rw, 6004h, 1010h:01, 1018h:02").needs("reset, store"),
+        check("encoder-error-injection", diagnosis::injection,
+            "Manual 001, chapter 9.5: Each error that 2116h:01 injects is signalled in an EMCY message, 1001h, 1003h, 6503h, 6505h and 2117h, until 0 ends it.").applies("cia406, 2116h:01 rw, 6503h, 6505h, 1014h, 1018h:02").needs("reset"),
+        check("encoder-error-behaviour", diagnosis::behaviour,
+            "Manual 001, chapter 9.3: 1029h:02 and 1029h:03 say what a generic error and a temperature error change, also when the node is started again.").applies("cia406, 2116h:01 rw, 1029h:02 rw, 1029h:03 rw, 6505h, 1018h:02").needs("reset"),
+        check("encoder-offset-injection", preset::injected,
+            "Manual 001, chapter 9.4: The value of 2116h:02 is added to the position.").applies("cia406, 2116h:02 rw, 6002h, 6004h, 1018h:02").needs("reset"),
         check("encoder-customer-data", maker::customer_data,
             "Manual 000, object 2300h: Customer data keep what was written.").applies("cia406, 2300h:01 rw, 1018h:02"),
         check("encoder-clocks", maker::clocks,

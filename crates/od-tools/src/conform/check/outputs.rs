@@ -413,7 +413,7 @@ struct Analogue {
 }
 
 impl Analogue {
-    /// Changes one output after the other, and looks for an input that changes.
+    /// Changes one output after the other, and looks for the inputs that change.
     fn find(dut: &mut Dut<'_>) -> Checked<Vec<Self>> {
         dut.nmt(Command::Start)?;
         let mut found = Vec::new();
@@ -428,10 +428,9 @@ impl Analogue {
                     seen.push(dut.number(0x6401, input)?);
                 }
             }
-            let mut inputs = (1..).zip(seen[0].iter().zip(&seen[1]));
-            if let Some((input, _)) = inputs.find(|(_, (before, after))| before != after) {
-                found.push(Self { output, input });
-            }
+            let inputs = (1..).zip(seen[0].iter().zip(&seen[1]));
+            let changed = inputs.filter(|(_, (before, after))| before != after);
+            found.extend(changed.map(|(input, _)| Self { output, input }));
         }
         if found.is_empty() {
             return lacks("no analogue output is wired to an input; connect one to run this case");
@@ -460,9 +459,15 @@ impl Analogue {
         )
     }
 
-    /// Lets the input send its TPDO for these reasons (6421h).
+    /// Lets only this input send its TPDO, for these reasons (6421h).
     fn select(&self, dut: &mut Dut<'_>, reasons: u8) -> Checked {
-        dut.set(Address::new(0x6421, self.input), &[reasons])?;
+        for input in 1..=dut.number(0x6421, 0)?.min(0xFE) as u8 {
+            let is_it = input == self.input;
+            dut.set(
+                Address::new(0x6421, input),
+                &[if is_it { reasons } else { 0 }],
+            )?;
+        }
         dut.set(Address::new(0x6423, 0), &[1])
     }
 }

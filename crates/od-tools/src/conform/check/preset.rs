@@ -323,6 +323,32 @@ fn is_kept(
     )
 }
 
+/// The value of 2116h:02 is added to the position, as long as it is there.
+pub(super) fn injected(dut: &mut Dut<'_>) -> Checked {
+    const INJECTED: Address = Address::new(0x2116, 2);
+    const POSITION: Address = Address::new(0x6004, 0);
+    maker::is_of(dut, &[maker::EAM])?;
+    let range = range(dut)?;
+    let near = tolerance(dut, POSITION, range)?;
+    if near > 4 * NOISE {
+        return lacks("the shaft turns");
+    }
+    dut.set(INJECTED, &[0; 4])?;
+    let before = at(dut, POSITION)?;
+    for added in [0x321u32, 0x1234, 0] {
+        dut.write(INJECTED, &added.to_le_bytes())?;
+        let wanted = (before + u64::from(added)) % range;
+        let is = at(dut, POSITION)?;
+        let done = ensure(
+            apart(is, wanted, range) <= near,
+            format!("about {wanted} in {POSITION} with {added} in {INJECTED}"),
+            format!("{is} was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
 /// The electronic gear of the manuals, 2001h. EAM divides the position after a save and a restart; EN580C computes
 /// 6001h from the range, numerator and denominator.
 pub(super) fn gear(dut: &mut Dut<'_>) -> Checked {
