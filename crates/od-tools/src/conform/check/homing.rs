@@ -7,6 +7,9 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};
 use crate::conform::sdo::abort_text;
 
+/// The bits of the statusword that show the progress of homing.
+const BITS: u64 = 1 << 10 | 1 << 12 | 1 << 13;
+
 /// 6098h takes each method of 60E3h.
 pub(super) fn methods(dut: &mut Dut<'_>) -> Checked {
     each(dut, HOMING, |dut, axis| {
@@ -42,7 +45,6 @@ pub(super) fn methods(dut: &mut Dut<'_>) -> Checked {
 /// Homing at the present position: bits 10, 12 and 13.
 pub(super) fn homing(dut: &mut Dut<'_>) -> Checked {
     each(dut, HOMING, |dut, axis| {
-        const BITS: u64 = 1 << 10 | 1 << 12 | 1 << 13;
         let method = axis.at(0x6098);
         dut.keep(method)?;
         // Method 35 has the number 37 since the second edition.
@@ -126,6 +128,9 @@ pub(super) fn speed(dut: &mut Dut<'_>) -> Checked {
         // The axis keeps this speed.
         dut.wait(100_000)?;
         let later = axis.value(dut, 0x606C)?.abs();
+        let progress = ("homing in progress, bits 13, 12 and 10 = 000", BITS, 0);
+        let done = axis.shows(dut, 0, progress);
+        dut.fault(done)?;
         axis.command(dut, ENABLE)?;
         let wrong = [speed, later]
             .into_iter()
@@ -142,6 +147,9 @@ pub(super) fn speed(dut: &mut Dut<'_>) -> Checked {
         // Halt stops homing, too.
         let standing = axis.standing(dut)?;
         axis.comes_to(dut, 0x606C, 0, standing, "after bit 4 of 6040h became 0")?;
+        let interrupted = "homing interrupted, bits 13, 12 and 10 = 001";
+        let done = axis.shows(dut, CHANGE, (interrupted, BITS, 1 << 10));
+        dut.fault(done)?;
         axis.command(dut, ENABLE | START)?;
         let end = dut.now().plus_micros(MOVE);
         while axis.value(dut, 0x606C)?.abs() < pace - window && dut.now() < end {

@@ -24,6 +24,12 @@ pub(super) fn enable(dut: &mut Dut<'_>) -> Checked {
         ] {
             axis.command(dut, word)?;
             axis.shows(dut, CHANGE, state)?;
+            if word == ENABLE {
+                let bits = 1 << 4 | 1 << 9;
+                let shown = "voltage enabled and remote, bits 4 and 9 = 11, in Operation enabled";
+                let done = axis.shows(dut, CHANGE, (shown, bits, bits));
+                dut.fault(done)?;
+            }
         }
         if !dut.may_reset {
             return Ok(());
