@@ -65,21 +65,21 @@ impl VirtualDevice {
     }
 
     /// Turns the shaft to the first angle at which the sensor reports `raw`; its speed stays. Positions that are
-    /// set at least every 20 ms are a movement with a speed of its own. Returns whether the device has a shaft, as
-    /// the next four functions do.
+    /// set at least every 20 ms are a movement with a speed of its own. Returns whether the device has a shaft.
     pub fn set_position(&mut self, raw: u64, now: Instant) -> bool {
         self.change(now, |encoder| {
             encoder.shaft.set_raw(now, encoder.sensor(), raw);
         })
     }
 
-    /// Turns the shaft by this number of revolutions; its speed stays.
+    /// Turns the shaft by this number of revolutions; its speed stays. Returns whether the device has a shaft.
     pub fn turn(&mut self, turns: f64, now: Instant) -> bool {
         let by = Angle::from_fractions((turns * REVOLUTION) as i64);
         self.change(now, |encoder| encoder.shaft.turn(now, by))
     }
 
-    /// Turns the shaft to this number of revolutions from the sensor's zero point; its speed stays.
+    /// Turns the shaft to this number of revolutions from the sensor's zero point; its speed stays. Returns whether the
+    /// device has a shaft.
     pub fn turn_to(&mut self, turns: f64, now: Instant) -> bool {
         let to = Angle::from_fractions((turns * REVOLUTION) as i64);
         self.change(now, |encoder| {
@@ -88,7 +88,7 @@ impl VirtualDevice {
         })
     }
 
-    /// Lets the shaft turn with this speed from now on; positive is clockwise.
+    /// Lets the shaft turn with this speed from now on; positive is clockwise. Returns whether the device has a shaft.
     pub fn set_rpm(&mut self, rpm: f64, now: Instant) -> bool {
         // `as` limits a speed that is too high to the range, and makes 0 of NaN.
         self.change(now, |encoder| {
@@ -97,7 +97,7 @@ impl VirtualDevice {
     }
 
     /// Lets the shaft speed up or slow down evenly to this speed within `micros` microseconds,
-    /// at most 4295 s.
+    /// at most 4295 s. Returns whether the device has a shaft.
     pub fn ramp_to_rpm(&mut self, rpm: f64, micros: u64, now: Instant) -> bool {
         let micros = u32::try_from(micros).unwrap_or(u32::MAX);
         self.change(now, |encoder| {

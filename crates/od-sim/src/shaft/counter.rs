@@ -23,7 +23,7 @@ impl Unseen {
         self.angle
     }
 
-    /// Returns whether the counter has missed nothing.
+    /// Forgets the missed revolutions: the counter knows the angle of the shaft again.
     pub(super) fn forget(&mut self) {
         self.angle = Angle::ZERO;
     }

@@ -23,16 +23,21 @@ use rate::Rate;
 /// the encoder's flange.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Shaft {
-    angle: Angle,
-    since: Instant,
     /// The angle at `since`.
+    angle: Angle,
+    /// Time of the last change.
+    since: Instant,
+    /// The speed at `since`, in thousandths of a revolution per minute.
     milli_rpm: i32,
-    /// Change of `milli_rpm` from `since` on; of length 0 without a ramp.
+    /// Change of the speed from `since` on; of length 0 without a ramp.
     ramp: Ramp,
-    /// The same speed, for a shaft without a ramp.
+    /// The same speed as an angle per microsecond, without a ramp.
     rate: Rate,
+    /// The speeds before, from which speed and acceleration are computed.
     course: Course,
+    /// Positions that a host set.
     placed: Placed,
+    /// Revolutions that the counter of the encoder missed.
     unseen: Unseen,
 }
 
