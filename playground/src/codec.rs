@@ -3,8 +3,8 @@
 
 use od_model::{Address, DataType};
 use od_runtime::NodeId;
+use od_sim::line::bits::{Bit, Part, bits};
 use od_sim::script::{LineContext, frame_of, typed};
-use od_sim::wire::bits::{Bit, Part, bits};
 use od_sim::words::fold::{Folder, State};
 use od_sim::words::{TAGS, tag};
 use wasm_bindgen::prelude::*;

@@ -1,7 +1,7 @@
 //! The labs of the page: the master on the bench, and the physics of the bus line.
 
+use od_sim::line::cable::{QUANTA, bit_time};
 use od_sim::master::{Boot, Stage, Standing, concise};
-use od_sim::wire::cable::{QUANTA, bit_time};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;

@@ -16,8 +16,8 @@
 
 use od_runtime::{Frame, Instant};
 use od_sim::journal;
+use od_sim::line::FrameError;
 use od_sim::rig::LineEvent;
-use od_sim::wire::FrameError;
 
 /// Bytes of a packed frame.
 pub(crate) const LEN: usize = 24;

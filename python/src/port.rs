@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use od_sim::line::Condition;
 use od_sim::logs::What;
-use od_sim::wire::Condition;
 use od_wire::Frame;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyString, PyTuple};

@@ -5,8 +5,8 @@ use std::thread::{self, Thread, ThreadId};
 use std::time::{Duration, Instant as Clock};
 
 use od_sim::bus::Bus;
+use od_sim::line::Condition;
 use od_sim::logs::{BusError, What};
-use od_sim::wire::Condition;
 use od_wire::{Frame, Instant};
 
 use crate::cyclic::Cyclic;

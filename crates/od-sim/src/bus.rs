@@ -2,19 +2,20 @@
 
 #[cfg(feature = "training")]
 mod master;
-mod pins;
 mod run;
+mod shafts;
 mod traffic;
-mod wiring;
+mod wires;
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame, Instant};
 
-use crate::bus::wiring::{Wire, Wiring};
+use crate::bus::shafts::Shafts;
+use crate::bus::wires::Wire;
 use crate::device::VirtualDevice;
-use crate::wire::{Line, Station};
+use crate::line::{Line, Station, same_rate};
 
 /// A frame that a device on the bus sent; on a real line also one from outside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,6 +29,8 @@ pub struct Sent {
     pub frame: Frame,
 }
 
+/// Devices on one CAN bus, in virtual time.
+///
 /// On an ideal line all stations receive a frame at the moment when it is sent, or all stations
 /// with the same bit rate after [`set_bit_rate`](Bus::set_bit_rate). On a real [`line`](Bus::line)
 /// a frame takes the time of its bits, and can fail as on CAN.
@@ -38,8 +41,10 @@ pub struct Sent {
 #[derive(Clone, Default)]
 pub struct Bus {
     devices: Vec<VirtualDevice>,
-    wiring: Wiring,
+    shafts: Shafts,
     wires: Vec<Wire>,
+    /// Bit rate of the outside in kbit/s; `None`: bit rates do not matter.
+    rate: Option<u16>,
     /// The bus line; ideal unless it is set to real.
     pub line: Line,
     now: Instant,
@@ -51,8 +56,7 @@ pub struct Bus {
     of_master: VecDeque<Frame>,
 }
 
-/// Maximum number of times in a row that a device has a deadline that is already due. After that the bus advances
-/// by a microsecond, so that no device can stop time.
+/// Limit of rounds at one moment: devices, wires or the master that react to each other without end must not stop time.
 const STUCK: u32 = 1000;
 
 impl Bus {
@@ -74,7 +78,7 @@ impl Bus {
 
     fn put(&mut self, device: VirtualDevice, beside: Option<usize>) -> usize {
         self.devices.push(device);
-        self.wiring.add(beside);
+        self.shafts.add(beside);
         let added = self.devices.len() - 1;
         if let Some(other) = beside {
             self.turn_along(other);
@@ -89,7 +93,7 @@ impl Bus {
             return None;
         }
         self.line.remove(device + 1);
-        self.wiring.remove(device);
+        self.shafts.remove(device);
         self.cut_wires(device);
         Some(self.devices.remove(device))
     }
@@ -100,7 +104,7 @@ impl Bus {
             return false;
         };
         *old = device;
-        self.wiring.separate(place);
+        self.shafts.separate(place);
         self.cut_wires_of(place);
         self.line.restart(place + 1);
         self.pass_on(place);
@@ -148,7 +152,7 @@ impl Bus {
         };
         let mut all = match one.channels() {
             0 | 1 => Vec::new(),
-            _ => self.wiring.beside(device),
+            _ => self.shafts.beside(device),
         };
         all.retain(|other| self.devices[*other].channels() > 1);
         let at = all.partition_point(|other| *other < device);
@@ -161,7 +165,7 @@ impl Bus {
         let Some(shaft) = self.devices.get(device).and_then(VirtualDevice::shaft_now) else {
             return;
         };
-        for other in self.wiring.beside(device) {
+        for other in self.shafts.beside(device) {
             self.devices[other].put_on_shaft(&shaft, self.now);
             self.pass_on(other);
         }
@@ -171,21 +175,23 @@ impl Bus {
     /// all others do not receive each other's frames. `None`, the initial state: all stations
     /// receive all frames.
     pub fn set_bit_rate(&mut self, kbit: Option<u16>) {
-        self.wiring.rate = kbit;
+        self.rate = kbit;
     }
 
     /// The bit rate of the outside in kbit/s; `None`: bit rates do not matter.
     pub fn bit_rate(&self) -> Option<u16> {
-        self.wiring.rate
+        self.rate
     }
 
     /// Returns whether this device and the outside receive each other's frames.
     fn hears_outside(&self, device: usize) -> bool {
-        if self.wiring.rate.is_none() {
-            return true;
-        }
-        let rate = self.devices[device].bit_rate();
-        self.wiring.hears(self.wiring.rate, rate)
+        self.rate.is_none() || same_rate(self.rate, self.devices[device].bit_rate())
+    }
+
+    /// Returns whether devices with these bit rates receive each other's frames, see
+    /// [`set_bit_rate`](Self::set_bit_rate).
+    fn hears(&self, one: Option<u16>, other: Option<u16>) -> bool {
+        self.rate.is_none() || same_rate(one, other)
     }
 
     /// The devices, in the order in which they were added.
@@ -237,9 +243,10 @@ impl Bus {
         self.run_master();
     }
 
-    /// Sends a frame from outside. On an ideal line every device receives it, and the responses of
-    /// the others; the result says whether the line let it through. On a real line the frame waits
-    /// for the line, and is [polled](Self::poll) after its transmission.
+    /// Sends a frame from outside. On an ideal line every device receives it at once, then the responses of
+    /// the others. On a real line the frame waits for the line, and is [polled](Self::poll) after its transmission.
+    ///
+    /// Returns whether the devices have received it: `false` on a real line, and while the outside is not connected.
     pub fn receive(&mut self, frame: &Frame) -> bool {
         if self.line.is_real() {
             self.queue(frame);
@@ -292,90 +299,14 @@ impl Bus {
         }
     }
 
-    /// Lets time pass until `to`; deadlines before are met at their own time.
-    pub fn advance(&mut self, to: Instant) {
-        while self.step(to) {}
-    }
-
     /// The next frame that a device sent, oldest first.
     pub fn poll(&mut self) -> Option<Sent> {
         self.sent.pop_front()
     }
 
-    /// Meets the next deadline up to `to`; without one the time becomes `to`.
-    fn step(&mut self, to: Instant) -> bool {
-        let goes_on = self.meet_next(to);
-        self.follow_wires();
-        self.run_master();
-        goes_on
-    }
-
-    /// As `step`, without the effects over wires and those on the master.
-    fn meet_next(&mut self, to: Instant) -> bool {
-        let due = (0..self.devices.len())
-            .filter_map(|device| Some((self.deadline(device)?, device)))
-            .min();
-        // `run_master` does the work of the master at this moment.
-        if let Some(at) = self.master_due()
-            && at <= to
-            && due.is_none_or(|(first, _)| at < first)
-            && self.line.medium.due().is_none_or(|first| at < first)
-        {
-            self.now = self.now.max(at);
-            return true;
-        }
-        if let Some(at) = self.line.medium.due()
-            && at <= to
-            && due.is_none_or(|(first, _)| at <= first)
-        {
-            self.now = self.now.max(at);
-            self.run_line();
-            return true;
-        }
-        if let Some((at, device)) = self.line.next_recovery()
-            && at <= to
-            && due.is_none_or(|(first, _)| at < first)
-        {
-            self.now = self.now.max(at);
-            self.recover(device);
-            return true;
-        }
-        let Some((at, device)) = due.filter(|(at, _)| *at <= to) else {
-            self.now = self.now.max(to);
-            return false;
-        };
-        self.now = self.now.max(at);
-        self.meet(device, 0, to)
-    }
-
-    /// Meets the deadlines of a device at this time; `met` were met already. Returns whether the
-    /// time is not after `to`.
-    fn meet(&mut self, device: usize, met: u32, to: Instant) -> bool {
-        for _ in met..STUCK {
-            self.devices[device].handle_timeout(self.now);
-            self.pass_on(device);
-            self.report_controllers();
-            match self.deadline(device) {
-                Some(again) if again <= self.now => {}
-                _ => return true,
-            }
-        }
-        self.now = self.now.plus_micros(1);
-        self.now <= to
-    }
-
-    /// The bus was recessive for long enough after bus-off: a device that restarts its controller
-    /// returns, any other stays off the bus.
-    fn recover(&mut self, device: usize) {
-        let begins = self.devices.get_mut(device).is_some_and(|one| {
-            one.handle_bus(BusEvent::Active, self.now);
-            !one.is_bus_off()
-        });
-        self.line.recover(device, begins);
-        if begins {
-            self.pass_on(device);
-            self.report_controllers();
-        }
+    /// All frames of devices, oldest first.
+    pub(crate) fn poll_all(&mut self) -> impl Iterator<Item = Sent> + '_ {
+        self.sent.drain(..)
     }
 
     /// Collects the frames of a device and passes them to the others, then the responses of those in the
@@ -394,7 +325,7 @@ impl Bus {
             let rate = self.devices[from].bit_rate();
             for other in (0..self.devices.len()).filter(|other| *other != from) {
                 let its = self.devices[other].bit_rate();
-                if !self.wiring.hears(rate, its) || !self.line.is_plugged(other + 1) {
+                if !self.hears(rate, its) || !self.line.is_plugged(other + 1) {
                     continue;
                 }
                 self.devices[other].handle_frame(self.now, &frame);

@@ -20,6 +20,7 @@ pub mod faults;
 pub mod grammar;
 pub mod journal;
 pub mod lesson;
+pub mod line;
 pub mod links;
 pub mod logs;
 #[cfg_attr(not(feature = "training"), allow(dead_code))]
@@ -36,7 +37,6 @@ pub mod signal;
 pub mod stats;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
-pub mod wire;
 pub mod words;
 
 pub use bus::Bus;
@@ -47,5 +47,5 @@ pub use device::saved::{Saved, is_saved};
 pub use device::services::Services;
 pub use device::world::ShaftView;
 pub use device::{VirtualDevice, notice, pdos, twin};
+pub use line::Line;
 pub use od_model::Refused;
-pub use wire::Line;

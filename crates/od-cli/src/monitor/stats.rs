@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use od_model::values;
+use od_sim::line::bits::{INTERMISSION, bits};
 use od_sim::stats::{Ids, Row};
-use od_sim::wire::bits::{INTERMISSION, bits};
 use od_tools::filter::{Filter, FilteredFrame};
 use od_wire::{CanId, Instant};
 use serde_json::{Value, json};

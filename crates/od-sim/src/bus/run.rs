@@ -1,12 +1,17 @@
-//! Lets time pass until frames are sent, one after the other or many at once.
+//! Lets time pass: which deadline is next, and how far the bus runs.
 
 use std::prelude::v1::*;
 
-use od_runtime::Instant;
+use od_runtime::{BusEvent, Instant};
 
-use super::{Bus, Sent};
+use super::{Bus, STUCK, Sent};
 
 impl Bus {
+    /// Lets time pass until `to`; deadlines before are met at their own time.
+    pub fn advance(&mut self, to: Instant) {
+        while self.step(to) {}
+    }
+
     /// Lets time pass until a frame is sent, but not beyond `to`. Returns whether one was sent; if
     /// not, the time is `to`.
     pub fn advance_until_sent(&mut self, to: Instant) -> bool {
@@ -28,6 +33,120 @@ impl Bus {
         true
     }
 
+    /// Lets time pass until no frame is being sent or waits, or until this time if there is always
+    /// one.
+    pub(crate) fn advance_until_quiet(&mut self, until: Instant) {
+        while self.is_busy() && self.next_deadline().is_some_and(|at| at <= until) {
+            self.advance_until_event();
+        }
+    }
+
+    /// Lets time pass until the next event on the line or in a device; `false` if there will be
+    /// none.
+    pub(crate) fn advance_until_event(&mut self) -> bool {
+        let Some(at) = self.next_deadline() else {
+            return false;
+        };
+        self.step(at.max(self.now));
+        true
+    }
+
+    /// The next deadline of any device, of a controller that recovers from bus-off, of a frame
+    /// on a real line, or of the master.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        let devices = (0..self.devices.len()).filter_map(|device| self.deadline(device));
+        let controller = self.line.next_recovery().map(|(at, _)| at);
+        devices
+            .chain(controller)
+            .chain(self.line.medium.due())
+            .chain(self.master_due())
+            .min()
+    }
+
+    /// Time when a device is due. A device with a frame to send waits until its controller has
+    /// room.
+    pub(super) fn deadline(&self, device: usize) -> Option<Instant> {
+        let at = self.devices[device].poll_timeout()?;
+        let waits = at <= self.now && self.line.is_real();
+        (!waits || self.line.medium.has_room(device + 1)).then_some(at)
+    }
+
+    /// Meets the next deadline up to `to`, and returns `true`; without one the time becomes `to`.
+    fn step(&mut self, to: Instant) -> bool {
+        let goes_on = self.meet_next(to);
+        self.follow_wires();
+        self.run_master();
+        goes_on
+    }
+
+    /// As `step`, without the effects over wires and those on the master.
+    fn meet_next(&mut self, to: Instant) -> bool {
+        let due = (0..self.devices.len())
+            .filter_map(|device| Some((self.deadline(device)?, device)))
+            .min();
+        // `run_master` does the work of the master at this moment.
+        if let Some(at) = self.master_due()
+            && at <= to
+            && due.is_none_or(|(first, _)| at < first)
+            && self.line.medium.due().is_none_or(|first| at < first)
+        {
+            self.now = self.now.max(at);
+            return true;
+        }
+        if let Some(at) = self.line.medium.due()
+            && at <= to
+            && due.is_none_or(|(first, _)| at <= first)
+        {
+            self.now = self.now.max(at);
+            self.run_line();
+            return true;
+        }
+        if let Some((at, device)) = self.line.next_recovery()
+            && at <= to
+            && due.is_none_or(|(first, _)| at < first)
+        {
+            self.now = self.now.max(at);
+            self.recover(device);
+            return true;
+        }
+        let Some((at, device)) = due.filter(|(at, _)| *at <= to) else {
+            self.now = self.now.max(to);
+            return false;
+        };
+        self.now = self.now.max(at);
+        self.meet(device, 0, to)
+    }
+
+    /// Meets the deadlines of a device at this time; `met` were met already. Returns whether the
+    /// time is not after `to`.
+    fn meet(&mut self, device: usize, met: u32, to: Instant) -> bool {
+        for _ in met..STUCK {
+            self.devices[device].handle_timeout(self.now);
+            self.pass_on(device);
+            self.report_controllers();
+            match self.deadline(device) {
+                Some(again) if again <= self.now => {}
+                _ => return true,
+            }
+        }
+        self.now = self.now.plus_micros(1);
+        self.now <= to
+    }
+
+    /// The bus was recessive for long enough after bus-off: a device that restarts its controller
+    /// returns, any other stays off the bus.
+    fn recover(&mut self, device: usize) {
+        let begins = self.devices.get_mut(device).is_some_and(|one| {
+            one.handle_bus(BusEvent::Active, self.now);
+            !one.is_bus_off()
+        });
+        self.line.recover(device, begins);
+        if begins {
+            self.pass_on(device);
+            self.report_controllers();
+        }
+    }
+
     /// Meets many deadlines at once for the only device on an ideal line. Returns the same as
     /// `step`; `None` if there are other devices, or an observer waits for frames.
     fn run_alone(&mut self, to: Instant, frames: usize) -> Option<bool> {
@@ -36,7 +155,7 @@ impl Bus {
         }
         let Self {
             devices,
-            wiring,
+            rate,
             wires,
             line,
             sent,
@@ -46,7 +165,7 @@ impl Bus {
         let [device] = devices.as_mut_slice() else {
             return None;
         };
-        let reaches_outside = wiring.rate.is_none() && line.is_plugged(0) && line.is_plugged(1);
+        let reaches_outside = rate.is_none() && line.is_plugged(0) && line.is_plugged(1);
         if !wires.is_empty() || line.is_real() || !reaches_outside || line.has_plans() {
             return None;
         }
@@ -70,11 +189,6 @@ impl Bus {
                 Some(false)
             }
         }
-    }
-
-    /// All frames of devices, oldest first.
-    pub(crate) fn poll_all(&mut self) -> impl Iterator<Item = Sent> + '_ {
-        self.sent.drain(..)
     }
 }
 

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::{Bus, Sent};
-use crate::wire::{Condition, Disturbance, Due, Ended, FrameError, PROCESSING, Waiting};
+use crate::line::{Condition, Disturbance, Due, Ended, FrameError, PROCESSING, Waiting};
 
 /// Bits of an extended frame with eight bytes, with the greatest number of stuff bits and the three
 /// bits after it.
@@ -18,18 +18,6 @@ impl Bus {
     /// transmission. Returns `false` if the queue is full, and the frame is lost.
     pub(crate) fn queue(&mut self, frame: &Frame) -> bool {
         self.line.medium.push(0, *frame, self.now)
-    }
-
-    /// The next deadline of any device, of a controller that recovers from bus-off, or of a frame
-    /// on a real line.
-    pub fn next_deadline(&self) -> Option<Instant> {
-        let devices = (0..self.devices.len()).filter_map(|device| self.deadline(device));
-        let controller = self.line.next_recovery().map(|(at, _)| at);
-        devices
-            .chain(controller)
-            .chain(self.line.medium.due())
-            .chain(self.master_due())
-            .min()
     }
 
     /// Returns whether a frame of this station waits for a real line or is being sent. Station 0 is
@@ -52,14 +40,6 @@ impl Bus {
     /// repeated without end.
     pub fn is_busy(&self) -> bool {
         (0..=self.devices.len()).any(|station| self.is_sending(station) && !self.is_stuck(station))
-    }
-
-    /// Lets time pass until no frame is being sent or waits, or until this time if there is always
-    /// one.
-    pub(crate) fn advance_until_quiet(&mut self, until: Instant) {
-        while self.is_busy() && self.next_deadline().is_some_and(|at| at <= until) {
-            self.advance_until_event();
-        }
     }
 
     /// Returns whether a frame of this station is repeated without end, because no station
@@ -94,24 +74,6 @@ impl Bus {
             )),
             _ => Ok(true),
         }
-    }
-
-    /// Lets time pass until the next event on the line or in a device; `false` if there will be
-    /// none.
-    pub(crate) fn advance_until_event(&mut self) -> bool {
-        let Some(at) = self.next_deadline() else {
-            return false;
-        };
-        self.step(at.max(self.now));
-        true
-    }
-
-    /// Time when a device is due. A device with a frame to send waits until its controller has
-    /// room.
-    pub(super) fn deadline(&self, device: usize) -> Option<Instant> {
-        let at = self.devices[device].poll_timeout()?;
-        let waits = at <= self.now && self.line.is_real();
-        (!waits || self.line.medium.has_room(device + 1)).then_some(at)
     }
 
     /// Collects the frames of a device, as far as its controller has room.
@@ -235,7 +197,7 @@ impl Bus {
                         self.devices[device].bit_rate(),
                         self.devices[other].bit_rate(),
                     );
-                    self.wiring.hears(one, its)
+                    self.hears(one, its)
                 }
             };
             let hears = hears && !self.line.misreads(&frame, station, other + 1);

@@ -7,9 +7,9 @@ use od_model::{Address, Dictionary};
 use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, Instant};
 
+use crate::line::bits::bits;
 use crate::logs::{BusError, Record, What};
 use crate::sdo::{Message, Observer, default_sdo};
-use crate::wire::bits::bits;
 
 /// Window in which the load is measured, in microseconds.
 pub(super) const WINDOW: u64 = 100_000;

@@ -11,8 +11,8 @@ use super::sight::{Answer, Edges, Language, Often, Share, Sight, Subject, named}
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
+use crate::line::FrameError;
 use crate::rig::LineEvent;
-use crate::wire::FrameError;
 
 /// Time in which the learner listens, in microseconds.
 const LISTEN: u64 = 3_000_000;
@@ -442,7 +442,7 @@ impl Reading {
         for seen in &self.frames {
             let (LineEvent::Frame { device, .. }
             | LineEvent::Heard { device, .. }
-            | LineEvent::Disturbed(crate::wire::Disturbance { device, .. })) = seen;
+            | LineEvent::Disturbed(crate::line::Disturbance { device, .. })) = seen;
             let Some(device) = *device else { continue };
             let rate = bus.devices().get(device).and_then(|one| one.bit_rate());
             let rate = rate.or(bus.line.bit_rate).unwrap_or(500);

@@ -8,11 +8,11 @@ use od_runtime::{BusEvent, Frame, PinKind};
 use super::master::MasterLine;
 use super::typed::{Typed, Write};
 use crate::bench::Bench;
-use crate::wire::cable::Property;
+use crate::line::cable::Property;
 
-/// A movement of a shaft.
+/// A change of a shaft.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Shaft {
+pub enum ShaftChange {
     /// To a raw position.
     At(u64),
     /// By revolutions, backwards if negative.
@@ -25,7 +25,7 @@ pub enum Shaft {
 
 /// A change of the bus line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Wire {
+pub enum LineChange {
     /// Frames may fail.
     Real(bool),
     /// Number of terminating resistors.
@@ -61,7 +61,7 @@ pub enum Deed {
     /// Power off for this time in microseconds, then on.
     Cycle(u64),
     /// A movement of the shaft.
-    Shaft(Shaft),
+    Shaft(ShaftChange),
     /// The rotary switches of the node ID.
     NodeSwitch(u8),
     /// The DIP switches of the bit rate.
@@ -90,7 +90,7 @@ pub enum Deed {
     /// Bit rate of the outside in kbit/s; `None`: any.
     BusRate(Option<u16>),
     /// A change of the bus line.
-    Line(Wire),
+    Line(LineChange),
     /// A line of the master's list, or a command to the master.
     Master(MasterLine),
 }
@@ -133,10 +133,10 @@ impl Deed {
             Self::Cycle(_) => bench.bus.set_power(bench.current, false),
             Self::Shaft(shaft) => {
                 let turned = bench.with(|device, now| match *shaft {
-                    Shaft::At(raw) => device.set_position(raw, now),
-                    Shaft::Turn(turns) => device.turn(turns, now),
-                    Shaft::Rpm(rpm) => device.set_rpm(rpm, now),
-                    Shaft::Ramp(rpm, micros) => device.ramp_to_rpm(rpm, micros, now),
+                    ShaftChange::At(raw) => device.set_position(raw, now),
+                    ShaftChange::Turn(turns) => device.turn(turns, now),
+                    ShaftChange::Rpm(rpm) => device.set_rpm(rpm, now),
+                    ShaftChange::Ramp(rpm, micros) => device.ramp_to_rpm(rpm, micros, now),
                 })?;
                 if !turned {
                     return Err("this device has no shaft".into());
@@ -197,15 +197,15 @@ impl Deed {
                 let order = line.order(&bench.bus)?;
                 bench.bus.order_master(&order)?;
             }
-            Self::Line(wire) => {
+            Self::Line(change) => {
                 let (line, station) = (&mut bench.bus.line, bench.current + 1);
-                match *wire {
-                    Wire::Real(real) => line.set_real(real),
-                    Wire::Terminators(count) => line.terminators = count,
-                    Wire::BitRate(kbit) => line.bit_rate = kbit,
-                    Wire::Plugged(plugged) => line.set_plugged(station, plugged),
-                    Wire::Cable(property) => line.set_property(station, property)?,
-                    Wire::Restarted => line.restart(0),
+                match *change {
+                    LineChange::Real(real) => line.set_real(real),
+                    LineChange::Terminators(count) => line.terminators = count,
+                    LineChange::BitRate(kbit) => line.bit_rate = kbit,
+                    LineChange::Plugged(plugged) => line.set_plugged(station, plugged),
+                    LineChange::Cable(property) => line.set_property(station, property)?,
+                    LineChange::Restarted => line.restart(0),
                 }
             }
         }

@@ -15,8 +15,8 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::device::leds::Led;
 use crate::device::world::ShaftView;
-use crate::wire::Condition;
-use crate::wire::cable::Measure;
+use crate::line::Condition;
+use crate::line::cable::Measure;
 
 /// A condition about a device or the bus line.
 #[derive(Clone, PartialEq, Debug)]

@@ -11,7 +11,7 @@ use super::pattern::Pattern;
 use super::problem::Problem;
 use super::tokens::{Tokens, nmt_command};
 use super::typed::{Typed, write};
-use super::world::{bus, connect, device, emcy, fault, label, pin, power, shaft, switch, wire};
+use super::world::{bus, connect, device, emcy, fault, label, line, pin, power, shaft, switch};
 use crate::logs::candump;
 
 pub(super) struct Verb {
@@ -45,7 +45,7 @@ pub(super) const VERBS: [Verb; 23] = [
            usage: "`wire out1 in3`, or `wire left.out1 right.in3` with names of `device … as` lines" },
     Verb { name: "bus", parse: bus,
            usage: "bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) or bitrate any" },
-    Verb { name: "line", parse: wire,
+    Verb { name: "line", parse: line,
            usage: "line real, ideal, terminators 2, bitrate 250 (kbit/s), bitrate any, plug, unplug, \
                    length 100 (m), sample-point 87.5 (%), sjw 1, clock 0.5 (%), short, short off or restart" },
     Verb { name: "master", parse: |tokens| Ok(Action::Deed(Deed::Master(MasterLine::parse(tokens)?))),

@@ -6,11 +6,11 @@ use std::prelude::v1::*;
 use od_runtime::{BusEvent, NodeId};
 
 use super::action::{Action, Added};
-use super::deed::{Deed, Shaft, Wire};
+use super::deed::{Deed, LineChange, ShaftChange};
 use super::problem::Problem;
 use super::tokens::{Tokens, fault_name};
 use crate::device::size;
-use crate::wire::cable::{self, Property};
+use crate::line::cable::{self, Property};
 
 pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let head = tokens.split_at_word(&["node", "serial", "domain-size", "as", "on", "off"]);
@@ -76,7 +76,7 @@ pub(super) fn shaft(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let here = *tokens;
     let moves = |shaft| Ok(Action::Deed(Deed::Shaft(shaft)));
     if what == "at" {
-        return moves(Shaft::At(tokens.number(0, u64::MAX)?));
+        return moves(ShaftChange::At(tokens.number(0, u64::MAX)?));
     }
     if !matches!(what, "turn" | "rpm" | "ramp") {
         return Err(start.wrong(format!("a shaft cannot `{what}`")));
@@ -93,10 +93,10 @@ pub(super) fn shaft(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
         return Err(here.problem("the value is too large for a shaft", help));
     }
     if what == "turn" {
-        return moves(Shaft::Turn(value));
+        return moves(ShaftChange::Turn(value));
     }
     if what == "rpm" {
-        return moves(Shaft::Rpm(value));
+        return moves(ShaftChange::Rpm(value));
     }
     if !tokens.take("over") {
         return Err(tokens.wrong("`over` is missing"));
@@ -106,7 +106,7 @@ pub(super) fn shaft(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     if micros > u64::from(u32::MAX) {
         return Err(here.problem("the ramp is too long", "the limit is 4294s"));
     }
-    moves(Shaft::Ramp(value, micros))
+    moves(ShaftChange::Ramp(value, micros))
 }
 
 pub(super) fn power(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
@@ -213,31 +213,31 @@ pub(super) fn bus(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     }))
 }
 
-pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+pub(super) fn line(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let here = *tokens;
     Ok(Action::Deed(Deed::Line(match tokens.next() {
-        "real" => Wire::Real(true),
-        "ideal" => Wire::Real(false),
-        "terminators" => Wire::Terminators(tokens.number(0, 4)? as u8),
-        "bitrate" => Wire::BitRate(bit_rate(tokens)?),
-        "plug" => Wire::Plugged(true),
-        "unplug" => Wire::Plugged(false),
-        "length" => Wire::Cable(Property::Length(
+        "real" => LineChange::Real(true),
+        "ideal" => LineChange::Real(false),
+        "terminators" => LineChange::Terminators(tokens.number(0, 4)? as u8),
+        "bitrate" => LineChange::BitRate(bit_rate(tokens)?),
+        "plug" => LineChange::Plugged(true),
+        "unplug" => LineChange::Plugged(false),
+        "length" => LineChange::Cable(Property::Length(
             tokens.number(0, cable::LONGEST.into())? as u16
         )),
         "sample-point" => {
             let thousandths = percent(tokens, (50.0, 95.0))? * 10.0;
-            Wire::Cable(Property::SamplePoint(thousandths.round() as u16))
+            LineChange::Cable(Property::SamplePoint(thousandths.round() as u16))
         }
-        "sjw" => Wire::Cable(Property::Jump(
+        "sjw" => LineChange::Cable(Property::Jump(
             tokens.number(1, cable::MOST_JUMP.into())? as u8
         )),
         "clock" => {
             let millionths = percent(tokens, (-5.0, 5.0))? * 10_000.0;
-            Wire::Cable(Property::Clock(millionths.round() as i32))
+            LineChange::Cable(Property::Clock(millionths.round() as i32))
         }
-        "short" => Wire::Cable(Property::Shorted(!tokens.take("off"))),
-        "restart" => Wire::Restarted,
+        "short" => LineChange::Cable(Property::Shorted(!tokens.take("off"))),
+        "restart" => LineChange::Restarted,
         word => return Err(here.wrong(format!("a line cannot `{word}`"))),
     })))
 }

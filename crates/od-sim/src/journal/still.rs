@@ -138,7 +138,7 @@ impl Journal {
         if devices == 0 {
             return None;
         }
-        let (cable, new) = (&bus.line.cable, crate::wire::cable::Cable::default());
+        let (cable, new) = (&bus.line.cable, crate::line::cable::Cable::default());
         let mut lines = Vec::new();
         if cable.length != new.length {
             lines.push(std::format!("line length {}", cable.length));

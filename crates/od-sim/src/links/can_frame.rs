@@ -1,5 +1,5 @@
-//! `struct can_frame` of Linux, the message of a raw CAN socket: 16 bytes, with an
-//! CAN-ID in the byte order of the machine.
+//! `struct can_frame` of Linux, the message of a raw CAN socket: 16 bytes, with
+//! the CAN-ID in the byte order of the machine.
 
 use std::prelude::v1::*;
 

@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
 
-use crate::wire::Controller;
+use crate::line::Controller;
 
 /// An effect of the bytes of a client.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -9,7 +9,7 @@ use std::prelude::v1::*;
 use od_runtime::{BusEvent, CanId, Frame, Instant};
 
 use super::codec::{Codec, Step, reply};
-use crate::wire::Controller;
+use crate::line::Controller;
 
 /// The answer to a valid line.
 const OK: &[u8] = b"\r";

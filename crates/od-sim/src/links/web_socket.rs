@@ -17,7 +17,7 @@ use tungstenite::{Error, Message};
 
 use super::codec::{Codec, Step};
 use super::slcan::Channel;
-use crate::wire::Controller;
+use crate::line::Controller;
 
 /// Longest head of a request, in bytes.
 const HEAD: usize = 8 * 1024;

@@ -23,7 +23,7 @@ use crate::bus::{Bus, Sent};
 use crate::device::VirtualDevice;
 #[cfg(feature = "lessons")]
 use crate::lesson::Progress;
-use crate::wire::Disturbance;
+use crate::line::Disturbance;
 
 pub use self::client::Outcome;
 

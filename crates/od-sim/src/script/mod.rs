@@ -34,7 +34,7 @@ pub use run::{run, run_on};
 
 pub use crate::bench::Bench;
 pub use crate::grammar::action::{Action, Added, Draw, Expect, Outcome, Timing, When};
-pub use crate::grammar::deed::{Deed, Shaft, Wire};
+pub use crate::grammar::deed::{Deed, LineChange, ShaftChange};
 pub use crate::grammar::frames::Frames;
 pub use crate::grammar::pattern::Pattern;
 pub use crate::grammar::problem::Problem;

@@ -15,7 +15,7 @@ use crate::bus::Sent;
 use crate::chance::Chance;
 use crate::device::VirtualDevice;
 use crate::grammar::action::{Action, Added, Draw, When};
-use crate::grammar::deed::{Deed, Wire};
+use crate::grammar::deed::{Deed, LineChange};
 use crate::grammar::draw::drawn;
 use crate::grammar::line::line;
 use crate::grammar::pattern::Pattern;
@@ -179,7 +179,7 @@ impl Runner<'_> {
         // The bus line exists before the first device.
         let is_before_devices = match &statement.action {
             Action::Device(_) => true,
-            Action::Deed(Deed::Line(wire)) => !matches!(wire, Wire::Plugged(_)),
+            Action::Deed(Deed::Line(change)) => !matches!(change, LineChange::Plugged(_)),
             _ => false,
         };
         if self.bench.bus.devices().is_empty() && !is_before_devices {

@@ -7,8 +7,8 @@ use od_runtime::NodeId;
 
 use super::*;
 use crate::device::VirtualDevice;
+use crate::line::FrameError;
 use crate::logs::candump::parse_frame;
-use crate::wire::FrameError;
 
 /// A bus at this bit rate in kbit/s with encoders of these node IDs.
 fn bus(kbit: u16, nodes: &[u8]) -> Bus {

@@ -6,7 +6,7 @@ use od_wire::nmt::State;
 
 use crate::bench::Bench;
 use crate::device::VirtualDevice;
-use crate::grammar::deed::{Deed, Shaft, Wire};
+use crate::grammar::deed::{Deed, LineChange, ShaftChange};
 use crate::grammar::shown::duration;
 use crate::words::{emcy_text, value_text};
 
@@ -33,18 +33,20 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
         }
         Deed::BusRate(None) => return String::from("all bit rates match"),
         Deed::BusRate(Some(kbit)) => return format!("masters use {kbit} kbit/s"),
-        Deed::Line(Wire::Plugged(true)) => String::from("connected to the bus line"),
-        Deed::Line(Wire::Plugged(false)) => String::from("disconnected from the bus line"),
-        Deed::Line(wire) => return line(*wire),
+        Deed::Line(LineChange::Plugged(true)) => String::from("connected to the bus line"),
+        Deed::Line(LineChange::Plugged(false)) => String::from("disconnected from the bus line"),
+        Deed::Line(change) => return line(*change),
         Deed::Master(_) => return String::from("the master has the line"),
         Deed::Power(true) => String::from("power on"),
         Deed::Power(false) => String::from("power off"),
         Deed::Cycle(micros) => format!("power off for {}, then on", duration(*micros)),
         Deed::Shaft(shaft) => match shaft {
-            Shaft::At(raw) => format!("shaft at raw position {raw}"),
-            Shaft::Turn(turns) => format!("shaft turned, in revolutions: {turns}"),
-            Shaft::Rpm(rpm) => format!("shaft at {rpm} rpm"),
-            Shaft::Ramp(rpm, micros) => format!("shaft to {rpm} rpm over {}", duration(*micros)),
+            ShaftChange::At(raw) => format!("shaft at raw position {raw}"),
+            ShaftChange::Turn(turns) => format!("shaft turned, in revolutions: {turns}"),
+            ShaftChange::Rpm(rpm) => format!("shaft at {rpm} rpm"),
+            ShaftChange::Ramp(rpm, micros) => {
+                format!("shaft to {rpm} rpm over {}", duration(*micros))
+            }
         },
         Deed::NodeSwitch(number) => format!("rotary switches at {number:02} from the next start"),
         Deed::RateSwitch(number) => format!("DIP switches at {number} from the next start"),
@@ -89,15 +91,15 @@ fn value(device: &VirtualDevice, address: od_model::Address, bytes: &[u8]) -> St
     }
 }
 
-fn line(wire: Wire) -> String {
-    match wire {
-        Wire::Real(true) => String::from("the bus line is real"),
-        Wire::Real(false) => String::from("the bus line is ideal"),
-        Wire::Terminators(1) => String::from("the bus line has 1 terminator"),
-        Wire::Terminators(count) => format!("the bus line has {count} terminators"),
-        Wire::BitRate(Some(kbit)) => format!("masters use {kbit} kbit/s on the bus line"),
-        Wire::BitRate(None) => String::from("masters use the bit rate of the first node"),
-        Wire::Restarted => String::from("masters and clients send on the bus line again"),
-        Wire::Plugged(_) | Wire::Cable(_) => String::from("done"),
+fn line(change: LineChange) -> String {
+    match change {
+        LineChange::Real(true) => String::from("the bus line is real"),
+        LineChange::Real(false) => String::from("the bus line is ideal"),
+        LineChange::Terminators(1) => String::from("the bus line has 1 terminator"),
+        LineChange::Terminators(count) => format!("the bus line has {count} terminators"),
+        LineChange::BitRate(Some(kbit)) => format!("masters use {kbit} kbit/s on the bus line"),
+        LineChange::BitRate(None) => String::from("masters use the bit rate of the first node"),
+        LineChange::Restarted => String::from("masters and clients send on the bus line again"),
+        LineChange::Plugged(_) | LineChange::Cable(_) => String::from("done"),
     }
 }

@@ -1,4 +1,4 @@
-//! Wires between connections of devices: an output sets an input.
+//! Wires between connections of devices beside the bus: an output sets an input.
 
 use std::format;
 use std::prelude::v1::*;
@@ -7,7 +7,29 @@ use od_model::Refused;
 use od_runtime::PinKind;
 
 use super::{Bus, STUCK};
-use crate::bus::wiring::Wire;
+
+/// A wire from one connection to another. Each end is the number of a device, and of its connection.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wire {
+    from: (usize, usize),
+    to: (usize, usize),
+    /// The last value that was passed on; `None` before the first.
+    last: Option<i64>,
+}
+
+impl Wire {
+    /// Returns the wire after this device was removed from the bus; `None` if the wire was
+    /// connected to it.
+    fn without(mut self, device: usize) -> Option<Self> {
+        for (end, _) in [&mut self.from, &mut self.to] {
+            if *end == device {
+                return None;
+            }
+            *end -= usize::from(*end > device);
+        }
+        Some(self)
+    }
+}
 
 impl Bus {
     /// Wires the connection of a device to an input of a device, which may be the same. An input
@@ -65,7 +87,7 @@ impl Bus {
         }
     }
 
-    /// Removes a device with its wires.
+    /// Removes the wires of a device that leaves the bus; later devices move up.
     pub(super) fn cut_wires(&mut self, device: usize) {
         let wires = core::mem::take(&mut self.wires);
         let left = wires.into_iter().filter_map(|wire| wire.without(device));

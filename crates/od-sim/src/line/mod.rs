@@ -496,8 +496,8 @@ fn first_difference(frames: &[(usize, Frame)]) -> Option<(u64, Vec<(usize, Frame
     Some((place as u64, recessive.map(|(frame, _)| *frame).collect()))
 }
 
-/// A station that adapts has every bit rate.
-fn same_rate(one: Option<u16>, other: Option<u16>) -> bool {
+/// Returns whether two stations have the same bit rate. A station without a bit rate adapts to all.
+pub(crate) fn same_rate(one: Option<u16>, other: Option<u16>) -> bool {
     one.is_none() || other.is_none() || one == other
 }
 
