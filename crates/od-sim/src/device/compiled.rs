@@ -6,7 +6,7 @@ use od_model::Dictionary;
 use od_runtime::{Application, Device, NodeId, Profile};
 
 use crate::device::VirtualDevice;
-use crate::device::behaviour::{Behaviour, Behind};
+use crate::device::application::{Behaviour, DeviceApplication};
 use crate::device::source::{Loaded, Source};
 
 impl VirtualDevice {
@@ -15,8 +15,8 @@ impl VirtualDevice {
     /// `device` is the type that `object_dictionary!` made. Services that it switches off are off here, too.
     /// A device that does not know its dictionary does not compile.
     pub fn of<D: Device>(title: &str, device: D, node_id: NodeId) -> Self {
-        let behaviour = Behaviour::of(dictionary::<D>());
-        Self::compiled(title, &device, node_id, behaviour)
+        let application = DeviceApplication::of(dictionary::<D>());
+        Self::compiled(title, &device, node_id, application)
     }
 
     /// A device as [`of`](Self::of) makes it, with this behaviour. The crates that `odkit new` makes call it.
@@ -26,16 +26,21 @@ impl VirtualDevice {
         node_id: NodeId,
         application: impl Application + Clone + Send + 'static,
     ) -> Self {
-        let behaviour = Behind::Own(Box::new(application)).into();
-        Self::compiled(title, &device, node_id, behaviour)
+        let application = Behaviour::Own(Box::new(application)).into();
+        Self::compiled(title, &device, node_id, application)
     }
 
-    fn compiled<D: Device>(title: &str, device: &D, node_id: NodeId, behaviour: Behaviour) -> Self {
+    fn compiled<D: Device>(
+        title: &str,
+        device: &D,
+        node_id: NodeId,
+        application: DeviceApplication,
+    ) -> Self {
         let loaded = Loaded {
             source: Source::Compiled(dictionary::<D>()),
             profile: profile(device),
         };
-        Self::build(title.into(), loaded, node_id, behaviour)
+        Self::build(title.into(), loaded, node_id, application)
     }
 }
 

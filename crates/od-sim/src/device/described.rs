@@ -3,6 +3,7 @@
 
 use std::prelude::v1::*;
 
+use od_client::pdo::bits;
 use od_client::watch;
 use od_model::Address;
 use od_runtime::{Frame, Instant};
@@ -11,6 +12,7 @@ use od_wire::sdo::{self, Request, Response};
 
 use crate::device::role::{Described, Role, Tpdo};
 use crate::device::{VirtualDevice, pdos};
+use crate::sdo::default_sdo;
 use crate::words::fold;
 
 impl VirtualDevice {
@@ -146,10 +148,8 @@ impl VirtualDevice {
             let pdo = pdo.clone();
             self.received(&pdo, frame);
         }
-        let server = frame.id().as_standard().map(|id| (id & !0x7F, id & 0x7F));
-        match server {
-            Some((0x600, id)) if id == u16::from(node.raw()) => self.sdo(frame, false),
-            Some((0x580, id)) if id == u16::from(node.raw()) => self.sdo(frame, true),
+        match default_sdo(frame) {
+            Some((server, is_response)) if server == node.raw() => self.sdo(frame, is_response),
             _ => {}
         }
     }
@@ -175,26 +175,19 @@ impl VirtualDevice {
         if let Some(described) = self.described_mut() {
             described.state = Some(State::Operational);
         }
-        let mut data = [0; 8];
-        data.iter_mut()
-            .zip(frame.data())
-            .for_each(|(to, from)| *to = *from);
-        let (data, room) = (u64::from_le_bytes(data), 8 * frame.data().len() as u32);
         let mut first = 0;
         for entry in &pdo.entries {
-            let bits = u32::from(entry.bits);
-            if bits == 0 || first + bits > room {
+            let Some(value) = bits(frame.data(), first, entry.bits) else {
                 return;
-            }
-            let value = (data >> first) & (u64::MAX >> (64 - bits));
-            let len = bits.div_ceil(8) as usize;
+            };
+            let len = usize::from(entry.bits.div_ceil(8));
             self.learn(entry.address, &value.to_le_bytes()[..len]);
-            first += bits;
+            first += entry.bits;
         }
     }
 
     /// Stores the values in the SDO transfers of any client with the node.
-    fn sdo(&mut self, frame: &Frame, is_answer: bool) {
+    fn sdo(&mut self, frame: &Frame, is_response: bool) {
         let entry = self.dictionary().find(sdo::address(frame.bytes())).ok();
         let own = entry.and_then(|entry| entry.data_type.size());
         let Some(described) = self.described_mut() else {
@@ -216,7 +209,7 @@ impl VirtualDevice {
         }
         let value =
             |bytes: [u8; 4], size: Option<u32>| bytes[..sdo::expedited_len(size, own)].to_vec();
-        if !is_answer {
+        if !is_response {
             described.folder.forget_before(number);
             described.written = match Request::parse(frame.bytes()) {
                 Request::InitiateDownload {

@@ -9,15 +9,15 @@ use od_runtime::encoder::{Role, Switches};
 use od_runtime::storage::image;
 
 use crate::device::VirtualDevice;
-use crate::device::behaviour::Behind;
+use crate::device::application::Behaviour;
 use crate::device::services::Services;
 
 impl VirtualDevice {
     /// The same device with this serial number in 1018h:04. Call it before the power is switched on.
     #[must_use]
     pub fn with_serial_number(mut self, serial_number: u32) -> Self {
-        match &mut self.node.application.behind {
-            Behind::Encoder(encoder) => {
+        match &mut self.node.application.behaviour {
+            Behaviour::Encoder(encoder) => {
                 **encoder = encoder.clone().with_serial_number(serial_number);
             }
             _ => self.node.application.serial_number = Some(serial_number),
@@ -33,8 +33,8 @@ impl VirtualDevice {
             u32::try_from(entry.default.integer(self.wanted_id.raw())?).ok()
         };
         let mut address = [1, 2, 3, 4].map(|sub| own(sub).unwrap_or_default());
-        let serial_number = match &self.node.application.behind {
-            Behind::Encoder(encoder) => encoder.serial_number(),
+        let serial_number = match &self.node.application.behaviour {
+            Behaviour::Encoder(encoder) => encoder.serial_number(),
             _ => self.node.application.serial_number,
         };
         address[3] = serial_number.unwrap_or(address[3]);
@@ -72,7 +72,7 @@ impl VirtualDevice {
                 let bit_rate = dip as u8;
                 let mut encoder = encoder.clone();
                 encoder.set_switches(Switches { node_id, bit_rate });
-                self.node.application.behind = Behind::Encoder(Box::new(encoder));
+                self.node.application.behaviour = Behaviour::Encoder(Box::new(encoder));
             }
         }
         self.delivered()

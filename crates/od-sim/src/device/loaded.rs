@@ -7,8 +7,8 @@ use od_eds::{Description, Finding, Tables};
 use od_runtime::{LssProfile, NodeId, Profile};
 
 use crate::device::VirtualDevice;
-use crate::device::behaviour::Behaviour;
-use crate::device::beside::Beside;
+use crate::device::application::DeviceApplication;
+use crate::device::file_parts::FileParts;
 use crate::device::left_out;
 use crate::device::services::Services;
 use crate::device::source::{Loaded, Source};
@@ -47,8 +47,8 @@ impl VirtualDevice {
             .and_then(|info| info.get("ProductName"));
         let title = product.map(|name| od_model::Visible(name.value.trim()).line().into_owned());
         let tables = Tables::new(description);
-        let mut behaviour = Behaviour::of(tables.dictionary());
-        behaviour.beside = Some(Beside::of(tables.dictionary()));
+        let mut application = DeviceApplication::of(tables.dictionary());
+        application.file_parts = Some(FileParts::of(tables.dictionary()));
         let title = title
             .filter(|title| !title.is_empty())
             .unwrap_or_else(|| "EDS device".into());
@@ -59,7 +59,7 @@ impl VirtualDevice {
                 ..Profile::CIA301
             },
         };
-        let mut device = Self::build(title, loaded, node_id, behaviour);
+        let mut device = Self::build(title, loaded, node_id, application);
         let has_lss = device.profile().lss.is_some();
         device.services = Services::of(device.dictionary(), has_lss, |key| {
             description.info_is_set(key)

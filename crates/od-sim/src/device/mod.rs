@@ -4,18 +4,17 @@
 //! |---|---|
 //! | `compiled`, `loaded` | a device that the compiler knows, of a file |
 //! | `role`, `described` | the node that it is on the bus: simulated, recorded, or real |
-//! | `source`, `behaviour`, `beside` | its dictionary, its behaviour; strings and DOMAINs of any length |
+//! | `source`, `application` | its dictionary, its behaviour |
 //! | `eeprom`, `saved` | its non-volatile memory, and how it is seen from outside |
 //! | `world`, `pins`, `leds` | its shaft, switches, faults, connections and LEDs |
 //! | `identity`, `own`, `view` | its serial number and LSS address; changes from its side; its values |
-//! | `forward`, `twin` | calls, and the other implementation that receives them, too |
-//! | `services`, `clock`, `programs`, `left_out` | other parts of a device of a file |
+//! | `twin`, `forward` | the other implementation that receives the calls of the device, too |
+//! | `file_parts`, `streams`, `clock`, `programs` | parts that only a device of a file has: long values, TIME, program download |
+//! | `services`, `left_out` | services of an EDS; the defaults that it leaves out |
 //! | `pdos`, `configured` | its PDOs and its configuration as they are now |
 //! | `notice`, `size` | texts: events of the storage, numbers of bytes |
 
-pub(crate) mod behaviour;
-#[cfg(feature = "eds")]
-pub(crate) mod beside;
+pub(crate) mod application;
 #[cfg(feature = "eds")]
 pub(crate) mod clock;
 pub(crate) mod compiled;
@@ -24,6 +23,8 @@ pub(crate) mod configured;
 #[cfg(feature = "real")]
 pub(crate) mod described;
 pub(crate) mod eeprom;
+#[cfg(feature = "eds")]
+pub(crate) mod file_parts;
 pub(crate) mod forward;
 pub(crate) mod identity;
 pub(crate) mod leds;
@@ -42,6 +43,8 @@ pub(crate) mod saved;
 pub(crate) mod services;
 pub(crate) mod size;
 pub(crate) mod source;
+#[cfg(feature = "eds")]
+pub(crate) mod streams;
 pub mod twin;
 pub(crate) mod view;
 pub(crate) mod world;
@@ -57,16 +60,16 @@ use od_runtime::{BusEvent, DeviceKind, Event, Frame, Instant, NodeId, Profile, R
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-use crate::device::behaviour::{Behaviour, Behind};
+use crate::device::application::{Behaviour, DeviceApplication};
 use crate::device::eeprom::Eeprom;
 use crate::device::role::Role;
 use crate::device::services::Services;
 use crate::device::source::{Loaded, Source};
-use crate::device::twin::{Call, Twins};
+use crate::device::twin::{Call, TwinSlot};
 use crate::shaft;
 
 /// The node of a device on a bench.
-pub(crate) type Node = od_runtime::Node<Loaded, Behaviour, Eeprom>;
+pub(crate) type Node = od_runtime::Node<Loaded, DeviceApplication, Eeprom>;
 
 /// A CANopen device that lives in virtual time.
 ///
@@ -91,8 +94,8 @@ pub struct VirtualDevice {
     /// Channels on its shaft, as [`DeviceKind::channels`].
     channels: u8,
     pub(super) has_leds: bool,
-    /// The twin, which also receives the calls of this device.
-    pub(super) twin: Twins,
+    /// The other implementation that receives the calls of this device, too.
+    pub(super) twin: TwinSlot,
     /// The node that it is on the bus.
     pub(super) role: Role,
 }
@@ -105,9 +108,9 @@ impl VirtualDevice {
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
         let behaviour = match kind.behaviour {
             kind::Behaviour::Encoder(profile) => {
-                Behind::Encoder(Box::new(shaft::encoder(profile, kind.dictionary)))
+                Behaviour::Encoder(Box::new(shaft::encoder(profile, kind.dictionary)))
             }
-            kind::Behaviour::Own(make) => Behind::Own(make()),
+            kind::Behaviour::Own(make) => Behaviour::Own(make()),
         };
         let loaded = Loaded {
             source: Source::Compiled(kind.dictionary),
@@ -126,14 +129,14 @@ impl VirtualDevice {
         title: String,
         device: Loaded,
         node_id: NodeId,
-        behaviour: Behaviour,
+        application: DeviceApplication,
     ) -> Self {
         let dictionary = device.source.dictionary();
         let services = Services::of(dictionary, device.profile.lss.is_some(), |_| false);
         let erased = vec![0xFF; needed(dictionary, &device.profile)];
         let mut made = Self {
             title,
-            node: Node::new(device, node_id, behaviour, Eeprom::own(erased)),
+            node: Node::new(device, node_id, application, Eeprom::own(erased)),
             services,
             wanted_id: node_id,
             wanted_rate: None,
@@ -143,7 +146,7 @@ impl VirtualDevice {
             events: VecDeque::new(),
             channels: 1,
             has_leds: true,
-            twin: Twins::default(),
+            twin: TwinSlot::default(),
             role: Role::Node,
         };
         made.break_storage();
@@ -177,8 +180,8 @@ impl VirtualDevice {
     /// is switched on.
     pub fn set_domain_size(&mut self, bytes: u32) -> bool {
         #[cfg(feature = "eds")]
-        if let Some(beside) = &mut self.node.application.beside {
-            beside.long.size = Some(bytes as usize);
+        if let Some(parts) = &mut self.node.application.file_parts {
+            parts.long.size = Some(bytes as usize);
             return true;
         }
         let _ = bytes;
@@ -208,7 +211,7 @@ impl VirtualDevice {
         self.call(now, Call::Frame(frame), |node| {
             node.handle_frame(now, frame);
         });
-        self.falls_dark(now);
+        self.power_off_if_cut(now);
     }
 
     /// Does the work that is due at `now`.
@@ -219,11 +222,11 @@ impl VirtualDevice {
         }
         #[cfg(feature = "serve")]
         self.happens_recorded(now);
-        self.falls_dark(now);
+        self.power_off_if_cut(now);
     }
 
     /// Switches the device off if the power failed during a write to the EEPROM.
-    fn falls_dark(&mut self, now: Instant) {
+    fn power_off_if_cut(&mut self, now: Instant) {
         if self.node.storage.is_cut() {
             self.power_off(now);
         }

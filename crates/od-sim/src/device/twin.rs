@@ -65,11 +65,11 @@ pub trait Twin: Send {
     fn happened(&mut self, event: &Event);
 }
 
-/// The twin of a device; a copy of the device has none.
+/// The twin of a device, if it has one. A copy of the device has none.
 #[derive(Default)]
-pub(crate) struct Twins(pub(crate) Option<Box<dyn Twin>>);
+pub(crate) struct TwinSlot(pub(crate) Option<Box<dyn Twin>>);
 
-impl Clone for Twins {
+impl Clone for TwinSlot {
     fn clone(&self) -> Self {
         Self(None)
     }

@@ -21,8 +21,8 @@ impl VirtualDevice {
             return value.to_vec();
         }
         #[cfg(feature = "eds")]
-        if let Some(beside) = &self.node.application.beside
-            && let Some(value) = beside.long.get(address)
+        if let Some(parts) = &self.node.application.file_parts
+            && let Some(value) = parts.long.get(address)
         {
             return value.to_vec();
         }

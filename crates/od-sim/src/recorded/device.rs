@@ -9,7 +9,7 @@ use od_wire::nmt::State;
 use super::Recorded;
 use super::play::{Due, Playing};
 use crate::device::VirtualDevice;
-use crate::device::behaviour::Behind;
+use crate::device::application::Behaviour;
 use crate::device::role::Role;
 
 impl VirtualDevice {
@@ -25,7 +25,7 @@ impl VirtualDevice {
         }
         profile.sdo.segmented_download &= !recorded.no_segments;
         profile.sdo.block &= !recorded.no_blocks;
-        self.node.application.behind = Behind::Plain(NoApplication);
+        self.node.application.behaviour = Behaviour::Plain(NoApplication);
         let node = self.node_id().raw();
         let dictionary = self.dictionary();
         let configured = |index, sub| {

@@ -99,8 +99,8 @@ impl Pair {
     /// Number of bytes of its values.
     fn memory(&self) -> usize {
         let node = &self.device.node;
-        let beside = node.application.beside.as_ref();
-        node.values().len() + beside.map_or(0, |beside| beside.long.memory())
+        let parts = node.application.file_parts.as_ref();
+        node.values().len() + parts.map_or(0, |parts| parts.long.memory())
     }
 }
 

@@ -1,4 +1,4 @@
-//! The parts of a device of a file beside its behaviour: strings and DOMAINs that are too long for the store,
+//! The parts that only a device of a file has, besides its behaviour: strings and DOMAINs that are too long for the store,
 //! a clock, and programs. A long value takes memory only when a master writes it.
 
 use std::prelude::v1::*;
@@ -85,15 +85,15 @@ pub(crate) fn room(entry: &Entry) -> usize {
     usize::from(entry.slot.len.saturating_sub(2))
 }
 
-/// The parts of a device of a file.
+/// The parts that only a device of a file has.
 #[derive(Clone, Default)]
-pub(crate) struct Beside {
+pub(crate) struct FileParts {
     pub(crate) long: Long,
     pub(crate) clock: Clock,
     pub(crate) programs: Programs,
 }
 
-impl Beside {
+impl FileParts {
     pub(crate) fn of(dictionary: Dictionary<'_>) -> Self {
         Self {
             programs: programs::of(dictionary),
