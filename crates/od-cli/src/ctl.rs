@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, ErrorKind, Write};
 
 use clap::ValueEnum;
-use od_sim::serve::Place;
+use od_sim::serve::ControlAddress;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -19,8 +19,8 @@ use crate::output::Output;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Control socket: unix:PATH, tcp:HOST:PORT, or a path
-    #[arg(value_parser = Place::parse)]
-    place: Place,
+    #[arg(value_parser = ControlAddress::parse)]
+    address: ControlAddress,
     /// Lines to send, one argument each
     #[arg(value_name = "LINE", required = true)]
     lines: Vec<String>,
@@ -36,16 +36,16 @@ enum Format {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let place = &args.place;
+    let address = &args.address;
     let lost = |error: std::io::Error| {
         Failure::Failed(match error.kind() {
             ErrorKind::NotFound | ErrorKind::ConnectionRefused => {
-                format!("{place}: no `odkit sim --control {place}` runs here")
+                format!("{address}: no `odkit sim --control {address}` runs here")
             }
-            _ => format!("{place}: {error}"),
+            _ => format!("{address}: {error}"),
         })
     };
-    let mut connection = BufReader::new(place.connect().map_err(lost)?);
+    let mut connection = BufReader::new(address.connect().map_err(lost)?);
     let mut output = Output::new();
     for line in args.lines.iter().flat_map(|text| text.lines()) {
         let sent = match line.trim() {
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             let read = connection.read_line(&mut answer).map_err(lost)?;
             if read == 0 {
                 written.map_err(lost)?;
-                return Err(Failure::Failed(format!("{place}: odkit sim has ended")));
+                return Err(Failure::Failed(format!("{address}: odkit sim has ended")));
             }
             let answer = answer.trim_end();
             let (kind, text) = answer.split_once(' ').unwrap_or((answer, ""));

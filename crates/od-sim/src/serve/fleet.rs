@@ -32,16 +32,16 @@ pub struct Maker<'m> {
 /// The error is the reason why the device cannot be made.
 pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, Refused> + 'm>;
 
-/// A device for the bus.
-pub(super) struct Place {
+/// A device with its place on a shaft.
+pub(super) struct PlacedDevice {
     /// It starts without power.
     pub(super) device: VirtualDevice,
-    /// Place of the device whose shaft it uses, if it has no shaft of its own.
+    /// PlacedDevice of the device whose shaft it uses, if it has no shaft of its own.
     pub(super) beside: Option<usize>,
 }
 
 /// Makes the devices; each channel of a redundant encoder is one device.
-pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, Error> {
+pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<PlacedDevice>, Error> {
     let nodes: Vec<(&Maker<'_>, u8)> = makers
         .iter()
         .flat_map(|maker| {
@@ -66,12 +66,12 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, E
         let why = "`--eeprom-reset` needs `--eeprom FILE`";
         return Err(Error::Usage(why.into()));
     }
-    let mut places: Vec<Place> = Vec::new();
+    let mut placed: Vec<PlacedDevice> = Vec::new();
     let mut has_shaft = false;
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
         let wanted = args.node_ids.get(at).copied();
         let wanted = wanted.or_else(|| maker.node_id.filter(|_| channel == 0).map(Some));
-        let device = one(maker, wanted, &places)?;
+        let device = one(maker, wanted, &placed)?;
         let mut device = match wanted {
             Some(Some(_)) => device.with_node_switch(),
             _ => device.delivered(),
@@ -80,7 +80,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, E
             .serials
             .get(at)
             .copied()
-            .or_else(|| free(&device, &places))
+            .or_else(|| free(&device, &placed))
         {
             device = device.with_serial_number(number);
         }
@@ -98,7 +98,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, E
             // The shaft of the first channel turns it.
             channel => Some(at - usize::from(channel)),
         };
-        places.push(Place { device, beside });
+        placed.push(PlacedDevice { device, beside });
     }
     let option = match (args.rpm, args.position) {
         (Some(_), _) => Some("--rpm"),
@@ -110,7 +110,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, E
             "no device has a shaft of its own for `{option}`; remove the option, or add an encoder"
         )));
     }
-    Ok(places)
+    Ok(placed)
 }
 
 /// Refuses a path that exists but cannot hold an EEPROM; opening a FIFO would wait for its other end.
@@ -160,7 +160,7 @@ fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Resul
 fn one(
     maker: &Maker<'_>,
     wanted: Option<Option<NodeId>>,
-    others: &[Place],
+    others: &[PlacedDevice],
 ) -> Result<VirtualDevice, Error> {
     let wanted = match wanted {
         Some(None) => return unconfigured(maker),
@@ -198,7 +198,7 @@ fn unconfigured(maker: &Maker<'_>) -> Result<VirtualDevice, Error> {
 }
 
 /// Returns the next free serial number if another device has the LSS address of this one.
-fn free(device: &VirtualDevice, others: &[Place]) -> Option<u32> {
+fn free(device: &VirtualDevice, others: &[PlacedDevice]) -> Option<u32> {
     let own = device.lss_address();
     let others = others.iter().map(|other| other.device.lss_address());
     let alike: Vec<u32> = others

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use od_runtime::NodeId;
 
-use super::control::place::Place;
+use super::control::address::ControlAddress;
 use super::error::Error;
 use super::fleet::Maker;
 use super::links::opened::{Opened, Protocol};
@@ -15,6 +15,7 @@ use super::terminal::{note, print as print_line};
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::device::services::Services;
+use crate::links::adapter::RATES;
 
 /// Prints the greeting to standard output, or to standard error if standard output carries frames.
 pub(super) fn print(
@@ -22,7 +23,7 @@ pub(super) fn print(
     args: &Options,
     bus: &Bus,
     links: &[Opened],
-    control: Option<&Place>,
+    control: Option<&ControlAddress>,
 ) -> Result<(), Error> {
     for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
         let node = device.node_id();
@@ -47,11 +48,11 @@ pub(super) fn print(
         |link: &Opened| matches!(link, Opened::Ends(ends) if ends.protocol == Protocol::Lines);
     let to_error = links.iter().any(has_frames);
     let mut text = text(args, bus, links);
-    if let Some(place) = control {
+    if let Some(address) = control {
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "control {place}; `odkit ctl {place} \"power cycle 2s\"`"
+            "control {address}; `odkit ctl {address} \"power cycle 2s\"`"
         );
     }
     if let (Some(device), Some(first)) = (bus.devices().first(), first) {
@@ -255,18 +256,13 @@ python-canopen (pip install {needs})
     candump(text, link, node, bitrate);
 }
 
+/// Commands for candump; none for a link that Linux tools cannot open.
 fn candump(text: &mut String, link: &Opened, node: u8, bitrate: u32) {
-    let speed = match bitrate {
-        10_000 => 0,
-        20_000 => 1,
-        50_000 => 2,
-        100_000 => 3,
-        125_000 => 4,
-        250_000 => 5,
-        800_000 => 7,
-        1_000_000 => 8,
-        _ => 6,
-    };
+    // A bit rate without a number of slcan gets that of 500 kbit/s.
+    let number = RATES
+        .iter()
+        .position(|kbit| u32::from(*kbit) * 1000 == bitrate);
+    let speed = number.unwrap_or(6);
     let request = 0x600 + u16::from(node);
     let send = format!("{request:03X}#4000100000000000");
     let _ = match link {

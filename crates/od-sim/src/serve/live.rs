@@ -11,7 +11,7 @@ use od_runtime::{Frame, Instant};
 use super::clients::Clients;
 use super::control::{Control, lost};
 use super::error::Error;
-use super::fleet::Place;
+use super::fleet::PlacedDevice;
 use super::links::LINKS;
 use super::links::listener::Listener;
 use super::links::opened::{Opened, Protocol};
@@ -60,13 +60,13 @@ impl Live {
     /// Switches the devices on. Their frames wait until the bench [runs](Self::run), so that every
     /// link that exists by then receives them.
     pub(super) fn new(
-        places: Vec<Place>,
+        placed: Vec<PlacedDevice>,
         clients: Clients,
         stats: Stats,
         stopped: Arc<AtomicBool>,
     ) -> Self {
         let mut bus = Bus::new();
-        for Place { device, beside } in places {
+        for PlacedDevice { device, beside } in placed {
             let number = match beside {
                 Some(other) => bus.add_beside(device, other),
                 None => bus.add(device),

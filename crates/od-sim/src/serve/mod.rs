@@ -30,7 +30,7 @@ mod stats;
 mod terminal;
 mod told;
 
-pub use control::place::Place;
+pub use control::address::ControlAddress;
 pub use error::Error;
 pub use fleet::{Make, Maker};
 pub use links::Link;

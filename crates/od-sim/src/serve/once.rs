@@ -2,6 +2,9 @@
 
 use std::io::IsTerminal;
 
+#[cfg(unix)]
+use super::process;
+
 /// Returns whether to print the hint: once per session of a terminal, and always to a pipe.
 /// `to_error`: it is printed to standard error.
 pub(super) fn is_due(to_error: bool) -> bool {
@@ -30,10 +33,7 @@ fn begin(stamp: Option<&std::path::Path>) -> bool {
 fn stamp() -> Option<std::path::PathBuf> {
     let leader = nix::unistd::getsid(None).ok()?;
     let user = nix::unistd::Uid::current();
-    let status = std::fs::read_to_string(format!("/proc/{leader}/stat")).unwrap_or_default();
-    // The program name is in parentheses and may contain any characters; field 22 is the start time.
-    let rest = status.rsplit(')').next().unwrap_or_default();
-    let start = rest.split_whitespace().nth(19).unwrap_or("0");
+    let start = process::started(u32::try_from(leader.as_raw()).ok()?).unwrap_or(0);
     let folder = std::env::var_os("XDG_RUNTIME_DIR").map(std::path::PathBuf::from);
     let folder = folder.filter(|folder| folder.is_absolute());
     let folder = folder.unwrap_or_else(std::env::temp_dir);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use od_model::{Refused, values};
 use od_runtime::NodeId;
 
-use super::control::place::Place;
+use super::control::address::ControlAddress;
 use super::links::{Link, web_socket};
 use super::log;
 use crate::device::size;
@@ -37,8 +37,8 @@ pub struct Options {
     pub bitrate: u32,
     /// Limit of TCP clients at a time; further ones are refused.
     pub max_clients: usize,
-    /// Place of the control socket.
-    pub control: Option<Place>,
+    /// ControlAddress of the control socket.
+    pub control: Option<ControlAddress>,
     /// Log file of the bus: pcapng if its name ends in .pcapng, otherwise candump.
     pub log: Option<PathBuf>,
     /// File that exists while the bench can be reached; `-`: a line on standard output.
@@ -251,7 +251,7 @@ pub const CHOICES: [Choice; 17] = [
         value: "unix:PATH|tcp:HOST:PORT",
         help: "Socket for the lines of `odkit ctl` while the bench runs: power, shaft, faults, values, `stats`. \
                Only this user can open it (TCP: each user of this computer)",
-        set: |options, text| Place::parse(text).map(|value| options.control = Some(value)),
+        set: |options, text| ControlAddress::parse(text).map(|value| options.control = Some(value)),
         ..PLAIN
     },
     Choice {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::control::place::Place;
+use super::control::address::ControlAddress;
 use super::error::Error;
 use super::files;
 use super::links::opened::{Opened, Protocol};
@@ -133,7 +133,7 @@ struct Node<'b> {
 pub(super) fn report(
     links: &[Opened],
     bus: &Bus,
-    control: Option<&Place>,
+    control: Option<&ControlAddress>,
     with_tokens: bool,
 ) -> String {
     let nodes = (1..).zip(bus.devices()).map(|(number, device)| Node {
@@ -148,7 +148,7 @@ pub(super) fn report(
         started: process::started(std::process::id()).unwrap_or(0),
         links: links.iter().map(|one| link(one, with_tokens)).collect(),
         nodes: nodes.collect(),
-        control: control.map(Place::to_string),
+        control: control.map(ControlAddress::to_string),
     })
 }
 

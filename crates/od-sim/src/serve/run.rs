@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use od_model::Refused;
 
 use super::clients::Clients;
-use super::control::place::Place;
+use super::control::address::ControlAddress;
 use super::error::Error;
 use super::events::Events;
 use super::files::Files;
@@ -52,24 +52,25 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Error> {
     })
     .map_err(|error| Error::Failed(format!("cannot handle Ctrl-C: {error}")))?;
     let mut clients = Clients::new(events, options.max_clients);
-    let (place, _path) = match control {
+    let (address, _file) = match control {
         Some(control) => {
             clients.open(Protocol::Control, control.listener)?;
-            (Some(control.place), control.path)
+            (Some(control.address), control.file)
         }
         None => (None, None),
     };
     let stats = Stats::new(options.bitrate);
     let mut live = Live::new(devices, clients, stats, stopped);
     live.log = log;
-    let report = |with_tokens| ready::report(&opened, &live.bench.bus, place.as_ref(), with_tokens);
+    let report =
+        |with_tokens| ready::report(&opened, &live.bench.bus, address.as_ref(), with_tokens);
     let (open, secret) = (report(false), report(true));
     greeting::print(
         makers.first(),
         options,
         &live.bench.bus,
         &opened,
-        place.as_ref(),
+        address.as_ref(),
     )?;
     for link in opened {
         live.add(link)?;
@@ -91,7 +92,7 @@ fn check_files(makers: &[Maker<'_>], options: &Options) -> Result<(), Refused> {
         files.read(format!("the device file `{}`", path.display()), path)?;
     }
     let control = match &options.control {
-        Some(Place::Unix(path)) => Some(path),
+        Some(ControlAddress::Unix(path)) => Some(path),
         _ => None,
     };
     let ready_file = options.ready_file.as_ref().filter(|path| !is_output(path));

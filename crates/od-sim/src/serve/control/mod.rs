@@ -3,8 +3,8 @@
 //! An answer is one line: `ok` and the result, `failed` and why the bench cannot do it, or `wrong`
 //! and why the line cannot be read. Lines before it that begin with `| ` belong to it.
 
+pub(super) mod address;
 pub(super) mod open;
-pub(super) mod place;
 mod said;
 
 use std::collections::VecDeque;

@@ -4,21 +4,21 @@ use std::io::ErrorKind;
 
 use mio::net::TcpListener;
 
-use super::place::Place;
+use super::address::ControlAddress;
 use crate::serve::error::Error;
 use crate::serve::links::listener::Listener;
 
 /// An open control socket.
-pub(in crate::serve) struct Opened {
+pub(in crate::serve) struct ControlSocket {
     /// Its address, with the real port number.
-    pub(in crate::serve) place: Place,
+    pub(in crate::serve) address: ControlAddress,
     pub(in crate::serve) listener: Listener,
     /// Removes the path when it is dropped.
-    pub(in crate::serve) path: Option<Path>,
+    pub(in crate::serve) file: Option<SocketFile>,
 }
 
 /// The path of a socket; dropping this value removes it.
-pub(in crate::serve) struct Path {
+pub(in crate::serve) struct SocketFile {
     #[cfg(unix)]
     path: std::path::PathBuf,
     /// Device and inode: another bench may have put its own socket there.
@@ -26,39 +26,39 @@ pub(in crate::serve) struct Path {
     file: (u64, u64),
 }
 
-/// Listens at a place.
+/// Listens at an address.
 ///
 /// # Errors
 /// Another process listens there, other users could reach it, or the system refuses it.
-pub(in crate::serve) fn listen(place: &Place) -> Result<Opened, Error> {
-    match place {
+pub(in crate::serve) fn listen(address: &ControlAddress) -> Result<ControlSocket, Error> {
+    match address {
         #[cfg(unix)]
-        Place::Unix(path) => unix::listen(path),
+        ControlAddress::Unix(path) => unix::listen(path),
         #[cfg(not(unix))]
-        Place::Unix(_) => {
+        ControlAddress::Unix(_) => {
             let why = "--control: this system has no Unix sockets; write tcp:127.0.0.1:PORT";
             Err(Error::Usage(why.into()))
         }
-        Place::Tcp(place) => tcp(place),
+        ControlAddress::Tcp(address) => tcp(address),
     }
 }
 
-fn tcp(place: &str) -> Result<Opened, Error> {
-    let addresses = Place::own_addresses(place);
+fn tcp(address: &str) -> Result<ControlSocket, Error> {
+    let addresses = ControlAddress::own_addresses(address);
     let addresses = addresses.map_err(|why| Error::Usage(format!("--control: {why}")))?;
     let bound = std::net::TcpListener::bind(addresses.as_slice());
     let listener = bound.map_err(|error| {
         let free = "take any free port with `--control tcp:127.0.0.1:0`";
         Error::Failed(match error.kind() {
-            ErrorKind::AddrInUse => format!("--control: {place} is in use; {free}"),
-            _ => format!("--control: {place}: {error}; {free}"),
+            ErrorKind::AddrInUse => format!("--control: {address} is in use; {free}"),
+            _ => format!("--control: {address}: {error}; {free}"),
         })
     })?;
     listener.set_nonblocking(true)?;
-    Ok(Opened {
-        place: Place::Tcp(listener.local_addr()?.to_string()),
+    Ok(ControlSocket {
+        address: ControlAddress::Tcp(listener.local_addr()?.to_string()),
         listener: Listener::Tcp(TcpListener::from_std(listener)),
-        path: None,
+        file: None,
     })
 }
 
@@ -71,9 +71,9 @@ mod unix {
 
     use nix::sys::stat::{Mode, umask};
 
-    use super::{Error, Listener, Opened, Path, Place};
+    use super::{ControlAddress, ControlSocket, Error, Listener, SocketFile};
 
-    pub(super) fn listen(path: &std::path::Path) -> Result<Opened, Error> {
+    pub(super) fn listen(path: &std::path::Path) -> Result<ControlSocket, Error> {
         let shown = path.display();
         let failed = |why: String| Error::Failed(format!("--control: {shown} {why}"));
         let bound = match bind(path) {
@@ -92,10 +92,10 @@ mod unix {
         listener.set_nonblocking(true)?;
         let file = fs::symlink_metadata(path)?;
         let path = path.to_owned();
-        Ok(Opened {
-            place: Place::Unix(path.clone()),
+        Ok(ControlSocket {
+            address: ControlAddress::Unix(path.clone()),
             listener: Listener::Unix(mio::net::UnixListener::from_std(listener)),
-            path: Some(Path {
+            file: Some(SocketFile {
                 path,
                 file: (file.dev(), file.ino()),
             }),
@@ -147,7 +147,7 @@ mod unix {
         String::from("another process")
     }
 
-    impl Drop for Path {
+    impl Drop for SocketFile {
         fn drop(&mut self) {
             let is_own = |file: fs::Metadata| (file.dev(), file.ino()) == self.file;
             if fs::symlink_metadata(&self.path).is_ok_and(is_own) {

@@ -22,7 +22,7 @@ fn arguments_are_read_with_a_blank_or_an_equals_sign() {
     assert_eq!(options.bitrate, 125_000);
     assert_eq!(options.domain_size, 65_536);
     assert_eq!(options.eeproms, [PathBuf::from("a.bin")]);
-    assert_eq!(options.control, Place::parse("unix:a").ok());
+    assert_eq!(options.control, ControlAddress::parse("unix:a").ok());
     assert!(options.quiet && !Options::default().quiet);
     assert!(options.eeprom_reset);
     assert_eq!(parsed(""), Ok(Options::default()));

@@ -1,4 +1,4 @@
-//! Place of the control socket: a path, or a port of this computer.
+//! ControlAddress of the control socket: a path, or a port of this computer.
 
 use od_model::Refused;
 use std::fmt;
@@ -6,9 +6,9 @@ use std::io::{self, Read, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
 use std::path::PathBuf;
 
-/// Place of the control socket.
+/// ControlAddress of the control socket.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Place {
+pub enum ControlAddress {
     /// A Unix socket.
     Unix(PathBuf),
     /// `HOST:PORT` of this computer.
@@ -20,7 +20,7 @@ pub trait Connection: Read + Write {}
 
 impl<T: Read + Write> Connection for T {}
 
-impl Place {
+impl ControlAddress {
     /// Reads `unix:PATH`, `tcp:HOST:PORT`, or a path.
     ///
     /// # Errors
@@ -30,8 +30,8 @@ impl Place {
             || format!("`{text}` is not a control socket; write unix:PATH or tcp:127.0.0.1:PORT");
         match text.split_once(':') {
             Some(("unix", path)) if !path.is_empty() => Ok(Self::Unix(path.into())),
-            Some(("tcp", place)) => {
-                let (host, port) = place.rsplit_once(':').unwrap_or(("127.0.0.1", place));
+            Some(("tcp", address)) => {
+                let (host, port) = address.rsplit_once(':').unwrap_or(("127.0.0.1", address));
                 let port: u16 = port.parse().map_err(|_| wrong())?;
                 if host.is_empty() {
                     Err(wrong().into())
@@ -56,45 +56,45 @@ impl Place {
             Self::Unix(path) => Box::new(std::os::unix::net::UnixStream::connect(path)?),
             #[cfg(not(unix))]
             Self::Unix(_) => return Err(io::ErrorKind::Unsupported.into()),
-            Self::Tcp(place) => {
-                let stream = TcpStream::connect(place)?;
+            Self::Tcp(address) => {
+                let stream = TcpStream::connect(address)?;
                 stream.set_nodelay(true)?;
                 Box::new(stream)
             }
         })
     }
 
-    /// The addresses of a TCP place, which must be this computer's own.
+    /// The socket addresses of `HOST:PORT`, which must be this computer's own.
     ///
     /// # Errors
     /// A sentence: the host is unknown, or other computers could connect.
-    pub(super) fn own_addresses(place: &str) -> Result<Vec<SocketAddr>, String> {
-        let addresses: Vec<SocketAddr> = match place.to_socket_addrs() {
+    pub(super) fn own_addresses(address: &str) -> Result<Vec<SocketAddr>, String> {
+        let addresses: Vec<SocketAddr> = match address.to_socket_addrs() {
             Ok(addresses) => addresses.collect(),
-            Err(error) => return Err(format!("the host of `{place}` is unknown ({error})")),
+            Err(error) => return Err(format!("the host of `{address}` is unknown ({error})")),
         };
         if addresses.iter().all(|address| address.ip().is_loopback()) {
             Ok(addresses)
         } else {
             Err(format!(
-                "`{place}` can be reached from other computers; write tcp:127.0.0.1:PORT"
+                "`{address}` can be reached from other computers; write tcp:127.0.0.1:PORT"
             ))
         }
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ControlAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unix(path) => write!(f, "unix:{}", path.display()),
-            Self::Tcp(place) => write!(f, "tcp:{place}"),
+            Self::Tcp(address) => write!(f, "tcp:{address}"),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Place;
+    use super::ControlAddress;
 
     #[test]
     fn a_place_is_a_path_or_a_port_of_this_computer() {
@@ -113,10 +113,12 @@ mod tests {
             ("a.sock", Some("unix:a.sock")),
             ("", None),
         ] {
-            let place = Place::parse(text).ok().map(|place| place.to_string());
+            let place = ControlAddress::parse(text)
+                .ok()
+                .map(|place| place.to_string());
             assert_eq!(place.as_deref(), shown, "{text}");
         }
-        assert!(Place::own_addresses("127.0.0.1:5").is_ok());
-        assert!(Place::own_addresses("0.0.0.0:5").is_err());
+        assert!(ControlAddress::own_addresses("127.0.0.1:5").is_ok());
+        assert!(ControlAddress::own_addresses("0.0.0.0:5").is_err());
     }
 }
