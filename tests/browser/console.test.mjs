@@ -245,7 +245,7 @@ check('the bits of the chosen frame: fields by name, stuff bits, CRC; a byte mar
   await page.locator('.frame:not([hidden])').filter({ hasText: '40 04 60 00' }).first().click();
   await page.getByRole('button', { name: 'Bits', exact: true }).click();
   const bits = page.locator('od-bits');
-  // 111 bits counted by hand, stuff bits included; `wire::bits` has tests of its own.
+  // 111 bits counted by hand, stuff bits included; `line::bits` has tests of its own.
   await becomes('the sum', () => bits.locator('.bits-words').textContent(), /^\d{3} bits, \d+ stuff bits, CRC [0-9A-F]{4}h, \d\.\d{3} ms$/);
   const [, all, stuffed] = /^(\d+) bits, (\d+) stuff/.exec(await bits.locator('.bits-words').textContent());
   assert.equal(Number(all) - Number(stuffed), 44 + 64, 'without stuff bits');

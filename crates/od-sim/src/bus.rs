@@ -13,7 +13,6 @@ use std::prelude::v1::*;
 use od_runtime::{BusEvent, Frame, Instant};
 
 use crate::bus::shafts::Shafts;
-use crate::bus::wires::Wire;
 use crate::device::VirtualDevice;
 use crate::line::{Line, Station, same_rate};
 
@@ -55,6 +54,18 @@ pub struct Bus {
     #[cfg(all(feature = "training", feature = "serve"))]
     of_master: VecDeque<Frame>,
 }
+
+/// A wire from one connection to another. Each end is the number of a device, and of its connection.
+#[derive(Clone, Copy, Debug)]
+struct Wire {
+    from: (usize, usize),
+    to: (usize, usize),
+    /// The last value that was passed on; `None` before the first.
+    last: Option<i64>,
+}
+
+/// Longest wait for the end of the traffic on a real line, in microseconds: a line that is full never becomes quiet.
+pub(crate) const UNTIL_QUIET: u64 = 100_000;
 
 /// Limit of rounds at one moment: devices, wires or the master that react to each other without end must not stop time.
 const STUCK: u32 = 1000;

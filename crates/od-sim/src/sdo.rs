@@ -2,6 +2,7 @@
 
 use od_model::Address;
 use od_runtime::Frame;
+use od_wire::AbortCode;
 use od_wire::sdo::{Request, Response};
 
 /// The node ID of a frame of a default SDO, and whether the server sends it. `None`: another frame.
@@ -13,6 +14,13 @@ pub(crate) fn default_sdo(frame: &Frame) -> Option<(u8, bool)> {
         _ => return None,
     };
     Some(((id & 0x7F) as u8, is_response))
+}
+
+/// Returns whether a client sends this frame only to abort a transfer to a node that did not respond. No node would
+/// acknowledge it.
+pub(crate) fn is_timeout(frame: &Frame) -> bool {
+    let request = frame.data().try_into().map(Request::parse);
+    matches!(request, Ok(Request::Abort { code, .. }) if code == AbortCode::Timeout.code())
 }
 
 /// A frame of an SDO.

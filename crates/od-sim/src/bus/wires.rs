@@ -6,16 +6,7 @@ use std::prelude::v1::*;
 use od_model::Refused;
 use od_runtime::PinKind;
 
-use super::{Bus, STUCK};
-
-/// A wire from one connection to another. Each end is the number of a device, and of its connection.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Wire {
-    from: (usize, usize),
-    to: (usize, usize),
-    /// The last value that was passed on; `None` before the first.
-    last: Option<i64>,
-}
+use super::{Bus, STUCK, Wire};
 
 impl Wire {
     /// Returns the wire after this device was removed from the bus; `None` if the wire was

@@ -8,8 +8,8 @@ use od_wire::AbortCode;
 use super::deed::Deed;
 use super::fact::Fact;
 use super::frames::Frames;
+use super::named_frame::Write;
 use super::pattern::Pattern;
-use super::typed::Write;
 
 /// Time of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

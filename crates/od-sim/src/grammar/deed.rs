@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use od_runtime::{BusEvent, Frame, PinKind};
 
 use super::master::MasterLine;
-use super::typed::{Typed, Write};
+use super::named_frame::{NamedFrame, Write};
 use crate::bench::Bench;
 use crate::line::cable::Property;
 
@@ -50,7 +50,7 @@ pub enum Deed {
     /// Sends a frame.
     Send {
         /// The frame.
-        frame: Typed,
+        frame: NamedFrame,
         /// Number of frames.
         times: u32,
         /// Period in microseconds.

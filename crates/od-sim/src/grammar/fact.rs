@@ -7,9 +7,9 @@ use od_model::values;
 use od_wire::NodeId;
 use od_wire::nmt::State;
 
+use super::comparison::{Comparison, SIGNS};
 use super::master::{Wanted, node};
 use super::problem::Problem;
-use super::test::{SIGNS, Test};
 use super::tokens::{Tokens, fault_name};
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
@@ -22,9 +22,9 @@ use crate::line::cable::Measure;
 #[derive(Clone, PartialEq, Debug)]
 pub enum Fact {
     /// The current value of an object, by address or name.
-    Value(String, Test),
+    Value(String, Comparison),
     /// The value after the next start; `None`: the current value.
-    Saved(String, Option<Test>),
+    Saved(String, Option<Comparison>),
     /// `None`: the device has no power.
     State(Option<State>),
     /// The green or the red LED shows this pattern.
@@ -35,37 +35,37 @@ pub enum Fact {
         led: Led,
     },
     /// The node ID of the device.
-    NodeId(Test),
+    NodeId(Comparison),
     /// The bit rate in kbit/s.
-    BitRate(Test),
+    BitRate(Comparison),
     /// Revolutions since the step began, as an absolute value.
-    Turned(Test),
+    Turned(Comparison),
     /// Revolutions per minute.
-    Rpm(Test),
+    Rpm(Comparison),
     /// This fault is active.
     Broken(&'static str),
     /// The value at a connection of the device.
-    Pin(String, Test),
+    Pin(String, Comparison),
     /// Resistors at the ends of the bus line.
-    Terminators(Test),
+    Terminators(Comparison),
     /// Error counter of the CAN controller on a real line: of transmit errors, otherwise of receive errors.
     ErrorCounter {
         /// The transmit error counter.
         transmit: bool,
         /// Condition for its value.
-        test: Test,
+        comparison: Comparison,
     },
     /// Error state of the CAN controller on a real line.
     Controller(Condition),
     /// A value of the cable, or of the device's clock.
-    Cable(Measure, Test),
+    Cable(Measure, Comparison),
     /// The state of a node, as the master on the bench sees it.
     Master(NodeId, Wanted),
 }
 
-/// Whether it holds, and the present value.
+/// Result of looking at a condition: whether it holds, and the present value.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Found {
+pub(crate) struct Evaluation {
     pub(crate) holds: bool,
     pub(crate) now: String,
 }
@@ -93,10 +93,10 @@ impl Fact {
                 green: tokens.one_of("LED", &[("green", true), ("red", false)])?,
                 led: tokens.one_of("LED state", &Led::ALL.map(|led| (led.name(), led)))?,
             },
-            "node-id" => Self::NodeId(Test::number(tokens)?),
-            "bitrate" => Self::BitRate(Test::number(tokens)?),
-            "turned" => Self::Turned(Test::number(tokens)?),
-            "rpm" => Self::Rpm(Test::number(tokens)?),
+            "node-id" => Self::NodeId(Comparison::number(tokens)?),
+            "bitrate" => Self::BitRate(Comparison::number(tokens)?),
+            "turned" => Self::Turned(Comparison::number(tokens)?),
+            "rpm" => Self::Rpm(Comparison::number(tokens)?),
             "broken" => Self::Broken(fault_name(tokens)?),
             "pin" => {
                 let here = *tokens;
@@ -104,12 +104,12 @@ impl Fact {
                 if name.is_empty() {
                     return Err(here.problem("the connection is missing", "write `pin out1 = 1`"));
                 }
-                Self::Pin(name, Test::number(tokens)?)
+                Self::Pin(name, Comparison::number(tokens)?)
             }
-            "terminators" => Self::Terminators(Test::number(tokens)?),
+            "terminators" => Self::Terminators(Comparison::number(tokens)?),
             counter @ ("tec" | "rec") => Self::ErrorCounter {
                 transmit: counter == "tec",
-                test: Test::number(tokens)?,
+                comparison: Comparison::number(tokens)?,
             },
             "controller" => Self::Controller(tokens.one_of(
                 "error state",
@@ -119,10 +119,10 @@ impl Fact {
                     ("bus-off", Condition::BusOff),
                 ],
             )?),
-            "line-length" => Self::Cable(Measure::Length, Test::number(tokens)?),
-            "sample-point" => Self::Cable(Measure::SamplePoint, Test::number(tokens)?),
-            "sjw" => Self::Cable(Measure::Jump, Test::number(tokens)?),
-            "clock" => Self::Cable(Measure::Clock, Test::number(tokens)?),
+            "line-length" => Self::Cable(Measure::Length, Comparison::number(tokens)?),
+            "sample-point" => Self::Cable(Measure::SamplePoint, Comparison::number(tokens)?),
+            "sjw" => Self::Cable(Measure::Jump, Comparison::number(tokens)?),
+            "clock" => Self::Cable(Measure::Clock, Comparison::number(tokens)?),
             "master" => Self::Master(node(tokens)?, Wanted::parse(tokens)?),
             _ => {
                 *tokens = start;
@@ -133,18 +133,18 @@ impl Fact {
 
     fn object(current: bool, tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
         let here = *tokens;
-        let (object, test) = match tokens.split_at_sign(&SIGNS) {
-            Some((object, how)) => (object, Some(Test::value(how, tokens)?)),
+        let (object, comparison) = match tokens.split_at_sign(&SIGNS) {
+            Some((object, operator)) => (object, Some(Comparison::value(operator, tokens)?)),
             None => (tokens.take_rest(), None),
         };
         let object = object.rest().to_owned();
-        match (current, test) {
+        match (current, comparison) {
             _ if object.is_empty() => {
                 Err(here.problem("the object is missing", "write `value 1017h = 500`"))
             }
             (true, None) => Err(here.problem("the value is missing", "write `value 1017h = 500`")),
-            (true, Some(test)) => Ok(Self::Value(object, test)),
-            (false, test) => Ok(Self::Saved(object, test)),
+            (true, Some(comparison)) => Ok(Self::Value(object, comparison)),
+            (false, comparison) => Ok(Self::Saved(object, comparison)),
         }
     }
 
@@ -157,24 +157,27 @@ impl Fact {
         bus: &mut Bus,
         device: usize,
         turns: Option<f64>,
-    ) -> Result<Found, String> {
+    ) -> Result<Evaluation, String> {
         let gone = || format!("device {} does not exist", device + 1);
         let now = bus.now();
         match self {
-            Self::Value(object, test) => {
+            Self::Value(object, comparison) => {
                 let look = |one: &mut VirtualDevice, now| {
                     let entry = values::find(one.dictionary(), object)?;
                     let (address, data_type) = (entry.address, entry.data_type);
                     #[cfg(feature = "real")]
                     if !one.is_known(address) {
-                        return found(false, "not known: read the object");
+                        return evaluation(false, "not known: read the object");
                     }
                     let bytes = one.read(address, now);
-                    found(test.holds(data_type, &bytes)?, test.show(data_type, &bytes))
+                    evaluation(
+                        comparison.holds(data_type, &bytes)?,
+                        comparison.show(data_type, &bytes),
+                    )
                 };
                 bus.with(device, look).ok_or_else(gone)?
             }
-            Self::Saved(object, test) => {
+            Self::Saved(object, comparison) => {
                 let look = |one: &mut VirtualDevice, _| {
                     let entry = values::find(one.dictionary(), object)?;
                     let (address, data_type) = (entry.address, entry.data_type);
@@ -182,39 +185,44 @@ impl Fact {
                     let Some(bytes) = one.saved_bytes(&saved, address) else {
                         return Err(format!("{address} is not saved"));
                     };
-                    let holds = match test {
-                        Some(test) => test.holds(data_type, &bytes)?,
+                    let holds = match comparison {
+                        Some(comparison) => comparison.holds(data_type, &bytes)?,
                         None => one.is_unsaved(&saved, address) == Some(false),
                     };
-                    let now = match test {
-                        Some(test) => test.show(data_type, &bytes),
+                    let now = match comparison {
+                        Some(comparison) => comparison.show(data_type, &bytes),
                         None => values::show(data_type, &bytes),
                     };
-                    found(holds, now)
+                    evaluation(holds, now)
                 };
                 bus.with(device, look).ok_or_else(gone)?
             }
-            Self::Terminators(test) => numbers(bus.line.terminators, test),
-            Self::Cable(measure, test) => numbers(bus.line.measure(device + 1, *measure), test),
+            Self::Terminators(comparison) => numbers(bus.line.terminators, comparison),
+            Self::Cable(measure, comparison) => {
+                numbers(bus.line.measure(device + 1, *measure), comparison)
+            }
             Self::Master(node, wanted) => {
                 let standing = bus.standing(*node);
-                found(wanted.holds(standing), Wanted::of(standing).short())
+                evaluation(wanted.holds(standing), Wanted::of(standing).short())
             }
             Self::ErrorCounter { .. } | Self::Controller(_) if !bus.line.is_real() => {
                 Err("an ideal bus line has no errors; remove `line ideal`".into())
             }
-            Self::ErrorCounter { transmit, test } => {
+            Self::ErrorCounter {
+                transmit,
+                comparison,
+            } => {
                 let controller = bus.line.controller(device + 1);
                 let counter = if *transmit {
                     controller.transmit
                 } else {
                     controller.receive
                 };
-                numbers(counter, test)
+                numbers(counter, comparison)
             }
             Self::Controller(wanted) => {
                 let is = bus.line.controller(device + 1).condition();
-                found(is == *wanted, is.name())
+                evaluation(is == *wanted, is.name())
             }
             _ => self.outside(bus.devices().get(device).ok_or_else(gone)?, now, turns),
         }
@@ -226,14 +234,14 @@ impl Fact {
         one: &VirtualDevice,
         now: od_runtime::Instant,
         turns: Option<f64>,
-    ) -> Result<Found, String> {
+    ) -> Result<Evaluation, String> {
         let shaft = || -> Result<ShaftView, String> {
             one.shaft(now).ok_or("this device has no shaft".into())
         };
         match self {
             Self::State(wanted) => {
                 let state = one.is_powered().then(|| one.state());
-                found(state == *wanted, state_name(state))
+                evaluation(state == *wanted, state_name(state))
             }
             Self::Led { green, led } => {
                 if !one.has_leds() {
@@ -241,28 +249,28 @@ impl Fact {
                 }
                 let leds = one.leds();
                 let is = if *green { leds.0 } else { leds.1 };
-                found(is == *led, is.name())
+                evaluation(is == *led, is.name())
             }
-            Self::NodeId(test) => numbers(one.node_id().raw(), test),
-            Self::BitRate(test) => match one.bit_rate() {
-                Some(rate) => numbers(rate, test),
+            Self::NodeId(comparison) => numbers(one.node_id().raw(), comparison),
+            Self::BitRate(comparison) => match one.bit_rate() {
+                Some(rate) => numbers(rate, comparison),
                 None => Err("this device has no bit rate of its own".into()),
             },
-            Self::Turned(test) => {
+            Self::Turned(comparison) => {
                 let now = shaft()?.turns;
-                numbers((now - turns.unwrap_or(now)).abs(), test)
+                numbers((now - turns.unwrap_or(now)).abs(), comparison)
             }
-            Self::Rpm(test) => numbers(shaft()?.rpm, test),
+            Self::Rpm(comparison) => numbers(shaft()?.rpm, comparison),
             Self::Broken(name) => {
                 if !one.faults().contains(name) {
                     return Err(format!("this device does not support the fault `{name}`"));
                 }
                 let broken = one.is_broken(name);
-                found(broken, if broken { "active" } else { "not active" })
+                evaluation(broken, if broken { "active" } else { "not active" })
             }
-            Self::Pin(name, test) => {
+            Self::Pin(name, comparison) => {
                 let number = one.pin_named(name)?;
-                numbers(one.pin(number, now) as f64, test)
+                numbers(one.pin(number, now) as f64, comparison)
             }
             // Handled above.
             Self::Value(..)
@@ -271,7 +279,7 @@ impl Fact {
             | Self::ErrorCounter { .. }
             | Self::Controller(_)
             | Self::Cable(..)
-            | Self::Master(..) => found(false, ""),
+            | Self::Master(..) => evaluation(false, ""),
         }
     }
 
@@ -287,13 +295,13 @@ impl Fact {
             }
         };
         match self {
-            Self::Value(object, test) => {
-                format!("{}{whose} {is} {}", label(object), test.words())
+            Self::Value(object, comparison) => {
+                format!("{}{whose} {is} {}", label(object), comparison.words())
             }
-            Self::Saved(object, test) => {
-                let value = test
+            Self::Saved(object, comparison) => {
+                let value = comparison
                     .as_ref()
-                    .map_or("the current value".into(), Test::words);
+                    .map_or("the current value".into(), Comparison::words);
                 format!("the saved value of {}{whose} {is} {value}", label(object))
             }
             Self::State(state) => format!("the NMT state{whose} {is} {}", state_name(*state)),
@@ -301,26 +309,36 @@ impl Fact {
                 let colour = if *green { "green" } else { "red" };
                 format!("the {colour} LED{whose} {is} {}", led.name())
             }
-            Self::NodeId(test) => format!("the node ID{whose} {is} {}", test.words()),
-            Self::BitRate(test) => format!("the bit rate{whose} {is} {} kbit/s", test.words()),
-            Self::Turned(test) => {
+            Self::NodeId(comparison) => format!("the node ID{whose} {is} {}", comparison.words()),
+            Self::BitRate(comparison) => {
+                format!("the bit rate{whose} {is} {} kbit/s", comparison.words())
+            }
+            Self::Turned(comparison) => {
                 let has = if not { "has not" } else { "has" };
                 format!(
                     "the shaft{whose} {has} turned by {} revolutions",
-                    test.words()
+                    comparison.words()
                 )
             }
-            Self::Rpm(test) => format!("the speed{whose} {is} {} rpm", test.words()),
+            Self::Rpm(comparison) => format!("the speed{whose} {is} {} rpm", comparison.words()),
             Self::Broken(name) => format!("the fault {name}{whose} {is} active"),
-            Self::Pin(name, test) => {
-                format!("the connection {name}{whose} {is} {}", test.words())
+            Self::Pin(name, comparison) => {
+                format!("the connection {name}{whose} {is} {}", comparison.words())
             }
-            Self::Terminators(test) => format!("the number of terminators is {}", test.words()),
-            Self::ErrorCounter { transmit, test } => {
+            Self::Terminators(comparison) => {
+                format!("the number of terminators is {}", comparison.words())
+            }
+            Self::ErrorCounter {
+                transmit,
+                comparison,
+            } => {
                 let which = if *transmit { "transmit" } else { "receive" };
-                format!("the {which} error counter{whose} {is} {}", test.words())
+                format!(
+                    "the {which} error counter{whose} {is} {}",
+                    comparison.words()
+                )
             }
-            Self::Cable(measure, test) => {
+            Self::Cable(measure, comparison) => {
                 let what = match measure {
                     Measure::Length => "the length of the line in metres",
                     Measure::SamplePoint => "the sample point in percent",
@@ -332,7 +350,7 @@ impl Fact {
                 } else {
                     ""
                 };
-                format!("{what}{whose} {is} {}", test.words())
+                format!("{what}{whose} {is} {}", comparison.words())
             }
             Self::Master(node, wanted) if not => {
                 format!(
@@ -352,14 +370,14 @@ fn state_name(state: Option<State>) -> &'static str {
     state.map_or("off", State::name)
 }
 
-fn found(holds: bool, now: impl Into<String>) -> Result<Found, String> {
+fn evaluation(holds: bool, now: impl Into<String>) -> Result<Evaluation, String> {
     let now = now.into();
-    Ok(Found { holds, now })
+    Ok(Evaluation { holds, now })
 }
 
-fn numbers(value: impl Into<f64>, test: &Test) -> Result<Found, String> {
+fn numbers(value: impl Into<f64>, comparison: &Comparison) -> Result<Evaluation, String> {
     let value = value.into();
     // A user can see a thousandth of a revolution on a shaft.
     let shown = (value * 1000.0).round() / 1000.0;
-    found(test.holds_number(value), format!("{shown}"))
+    evaluation(comparison.holds_number(value), format!("{shown}"))
 }

@@ -121,7 +121,7 @@ impl Frames {
                 }
             }
             Self::Nmt(command, node) => {
-                let name = words::command(*command);
+                let name = words::command_text(*command);
                 match node {
                     None => format!("NMT {name}"),
                     Some(0) => format!("NMT {name} to all nodes"),

@@ -9,10 +9,10 @@ use od_runtime::encoder::Fault;
 use super::action::{Action, Choice, Draw, When};
 use super::deed::Deed;
 use super::draw::drawn;
+use super::named_frame::NamedFrame;
 use super::problem::Problem;
 use super::shown::either;
 use super::tokens::{Tokens, is_decimal};
-use super::typed::Typed;
 use super::verbs::VERBS;
 use crate::logs::candump;
 
@@ -173,7 +173,7 @@ fn frame(tokens: &mut Tokens<'_>, word: &str) -> Result<Action, Problem> {
     };
     let frame = frame.map_err(|error| here.frame_problem(&error))?;
     Ok(Action::Deed(Deed::Send {
-        frame: Typed::Frame(frame),
+        frame: NamedFrame::Frame(frame),
         times: 1,
         every: 0,
     }))

@@ -6,9 +6,9 @@ use std::prelude::v1::*;
 use od_model::{Address, Dictionary, values};
 use od_wire::NodeId;
 
+use super::named_frame::{Write, write};
 use super::problem::Problem;
 use super::tokens::Tokens;
-use super::typed::{Write, write};
 use crate::bus::Bus;
 use crate::master::{Download, Order, Standing, Status, from_concise};
 

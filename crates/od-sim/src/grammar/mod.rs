@@ -7,25 +7,25 @@
 //! | `verbs` | the table of verbs, one row per first word; `world` has those outside the bus |
 //! | `line` | a complete line: its time, then a verb or a frame |
 //! | `draw` | the numbers that a `random` line draws |
-//! | `typed` | frames by name: `nmt start`, `sync`, `guard`, `read 1017h` |
+//! | `named_frame` | frames by name: `nmt start`, `sync`, `guard`, `read 1017h` |
 //! | `master` | lines about the master on the bench |
 //! | `pattern`, `frames` | expected frames |
-//! | `fact`, `test` | conditions about one moment |
+//! | `fact`, `comparison` | conditions about one moment |
 
 pub(crate) mod action;
+pub(crate) mod comparison;
 pub(crate) mod deed;
 pub(crate) mod draw;
 pub(crate) mod fact;
 pub(crate) mod frames;
 pub(crate) mod line;
 pub(crate) mod master;
+pub(crate) mod named_frame;
 pub mod pattern;
 pub mod problem;
 pub(crate) mod shown;
-pub(crate) mod test;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tokens;
-pub(crate) mod typed;
 mod verbs;
 mod world;

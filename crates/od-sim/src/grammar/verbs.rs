@@ -7,10 +7,10 @@ use super::deed::Deed;
 use super::fact::Fact;
 use super::frames::{self, Frames};
 use super::master::MasterLine;
+use super::named_frame::{NamedFrame, write};
 use super::pattern::Pattern;
 use super::problem::Problem;
 use super::tokens::{Tokens, nmt_command};
-use super::typed::{Typed, write};
 use super::world::{bus, connect, device, emcy, fault, label, line, pin, power, shaft, switch};
 use crate::logs::candump;
 
@@ -54,9 +54,9 @@ pub(super) const VERBS: [Verb; 23] = [
     Verb { name: "send", parse: send, usage: "`send 080# 3 times every 10ms`" },
     Verb { name: "nmt", parse: nmt, usage: "`nmt start`, `nmt start 5` or `nmt start all`" },
     Verb { name: "sync", parse: sync, usage: "`sync 15 times every 10ms` or `sync counter 3`" },
-    Verb { name: "guard", parse: |_| Ok(once(Typed::Guard)), usage: "`guard`" },
+    Verb { name: "guard", parse: |_| Ok(once(NamedFrame::Guard)), usage: "`guard`" },
     Verb { name: "read", parse: read, usage: "`read 1017h`" },
-    Verb { name: "write", parse: |tokens| Ok(once(Typed::Write(write(tokens)?))),
+    Verb { name: "write", parse: |tokens| Ok(once(NamedFrame::Write(write(tokens)?))),
            usage: "`write 1017h = 500`" },
     Verb { name: "sdo", parse: sdo,
            usage: "`sdo read 6004h`, `sdo read 6004h = 5` or `sdo write 6001h = 4096`; add \
@@ -67,7 +67,7 @@ pub(super) const VERBS: [Verb; 23] = [
            usage: "`expect 581#43*`, `expect state operational` or `expect silence 1s`" },
 ];
 
-fn once(frame: Typed) -> Action {
+fn once(frame: NamedFrame) -> Action {
     Action::Deed(Deed::Send {
         frame,
         times: 1,
@@ -86,7 +86,7 @@ fn send(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     here.limited_turns(times, every)?;
     let frame = candump::parse_frame(head.rest()).map_err(|error| head.frame_problem(&error))?;
     Ok(Action::Deed(Deed::Send {
-        frame: Typed::Frame(frame),
+        frame: NamedFrame::Frame(frame),
         times,
         every,
     }))
@@ -94,7 +94,7 @@ fn send(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
 
 fn nmt(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let (command, node) = nmt_command(tokens)?;
-    Ok(once(Typed::Nmt(command, node)))
+    Ok(once(NamedFrame::Nmt(command, node)))
 }
 
 fn sync(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
@@ -115,7 +115,7 @@ fn sync(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     }
     here.limited_turns(times, every)?;
     Ok(Action::Deed(Deed::Send {
-        frame: Typed::Frame(frame),
+        frame: NamedFrame::Frame(frame),
         times,
         every,
     }))
@@ -124,7 +124,7 @@ fn sync(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
 fn read(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     match tokens.take_rest().rest() {
         "" => Err(tokens.wrong("the object is missing")),
-        object => Ok(once(Typed::Read(object.to_owned()))),
+        object => Ok(once(NamedFrame::Read(object.to_owned()))),
     }
 }
 

@@ -129,7 +129,7 @@ impl Journal {
     #[cfg(feature = "real")]
     pub fn go_live(&mut self) {
         self.is_live = true;
-        self.rig.open_port();
+        self.rig.open_link();
     }
 
     /// Adds the description of a node of the real bus, like `Input::Add`.

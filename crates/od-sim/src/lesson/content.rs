@@ -7,15 +7,13 @@ use od_runtime::NodeId;
 
 use super::condition::Line;
 use super::quiz::Quiz;
+use crate::bus::UNTIL_QUIET;
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Script, Stop, run_on};
 
 /// Names of the blocks that are not part of the text; a device has a block `eds NAME`.
 pub(super) const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
-
-/// Longest time until the frames of a set-up are through, in microseconds: a full line always has a frame.
-const ON_ITS_WAY: u64 = 100_000;
 
 /// The content of a lesson.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -103,7 +101,7 @@ impl Lesson {
         let script = self.set_up.script().map_err(|mut all| all.remove(0))?;
         let mut own = OwnDevices { lesson: self, host };
         run_on(&script, &mut bench, &mut own).map_err(|stop| stopped(&stop))?;
-        let until = bench.bus.now().plus_micros(ON_ITS_WAY);
+        let until = bench.bus.now().plus_micros(UNTIL_QUIET);
         bench.bus.advance_until_quiet(until);
         while bench.bus.poll().is_some() {}
         while bench.bus.line.poll().is_some() {}

@@ -9,13 +9,10 @@ use od_runtime::{Frame, Instant};
 use super::condition::{Alternative, Line, Seen, What};
 use super::content::{Lesson, Step};
 use crate::bench::Bench;
-use crate::bus::Bus;
+use crate::bus::{Bus, UNTIL_QUIET};
 use crate::device::VirtualDevice;
 use crate::grammar::fact::Fact;
 use crate::script::Origin;
-
-/// Longest wait for the last frames of a step, in microseconds: a full line always has a frame.
-const ON_ITS_WAY: u64 = 100_000;
 
 /// A condition of the current step.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -269,7 +266,7 @@ impl Progress {
         let met = self.met.filter(|_| all).unwrap_or(now);
         self.met = all.then_some(met);
         self.idle |= all && !self.acted;
-        let is_complete = !bus.is_busy() || now.micros_since(met) >= ON_ITS_WAY;
+        let is_complete = !bus.is_busy() || now.micros_since(met) >= UNTIL_QUIET;
         let is_done = all && is_complete && self.acted;
         if is_done {
             let done = self.step;

@@ -135,7 +135,7 @@ impl Boot {
         match event {
             Event::Read(job, result) if self.job == Some(*job) => {
                 self.job = None;
-                self.is_read(result, plan, client, now);
+                self.handle_read(result, plan, client, now);
             }
             Event::Written(job, result) if self.job == Some(*job) => {
                 self.job = None;
@@ -214,8 +214,8 @@ impl Boot {
         self.job = Some(client.read(self.node, Address::new(0x1000, 0)));
     }
 
-    /// The device type or an entry of the identity was read.
-    fn is_read(
+    /// Handles the end of an upload of the device type or of an entry of the identity.
+    fn handle_read(
         &mut self,
         result: &Result<Vec<u8>, Error>,
         plan: &Plan,

@@ -18,12 +18,12 @@ use std::prelude::v1::*;
 use od_client::sdo::Options;
 use od_client::{Client, Event, lss, watch};
 use od_wire::nmt::State;
-use od_wire::sdo::Request;
-use od_wire::{AbortCode, Duration, Frame, Instant, NodeId};
+use od_wire::{Duration, Frame, Instant, NodeId};
 
 pub use self::boot::{Boot, Standing};
 pub use self::plan::{Download, Order, Plan, Slave, concise, from_concise};
 pub use self::status::{Stage, Status};
+use crate::sdo::is_timeout;
 
 /// Longest time from an SDO request to its response.
 const SDO_TIMEOUT: Duration = Duration::from_millis(500);
@@ -205,14 +205,6 @@ impl Master {
             }
         }
     }
-}
-
-/// Returns whether a frame only aborts a transfer without a response. The master does not send it, because no node
-/// would acknowledge it.
-fn is_timeout(frame: &Frame) -> bool {
-    let request = frame.data().try_into().map(Request::parse);
-    let is_timeout = |code| code == AbortCode::Timeout.code();
-    matches!(request, Ok(Request::Abort { code, .. }) if is_timeout(code))
 }
 
 #[cfg(all(test, feature = "training"))]

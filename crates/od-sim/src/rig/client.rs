@@ -6,8 +6,9 @@ use std::prelude::v1::*;
 use od_client::sdo::Options;
 use od_client::{Client, Event, Job, lss};
 use od_model::Address;
-use od_wire::sdo::Request;
-use od_wire::{AbortCode, Duration, Frame, Instant, NodeId};
+use od_wire::{Duration, Frame, Instant, NodeId};
+
+use crate::sdo::is_timeout;
 
 /// A finished transfer.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -139,13 +140,10 @@ impl SdoClient {
         asked.into_iter().map(silent).collect()
     }
 
-    /// Collects the frames of the client, except the abort to a node that did not respond: it would be one more frame
-    /// without an acknowledgement.
+    /// Collects the frames of the client, except aborts to a node that did not respond.
     fn take(&mut self, now: Instant) {
         while let Some(frame) = self.client.poll_transmit(now) {
-            let abort = frame.data().try_into().map(Request::parse);
-            let is_timeout = |code| code == AbortCode::Timeout.code();
-            if !matches!(abort, Ok(Request::Abort { code, .. }) if is_timeout(code)) {
+            if !is_timeout(&frame) {
                 self.requests.push_back(frame);
             }
         }

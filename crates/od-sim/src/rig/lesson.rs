@@ -27,7 +27,7 @@ impl Rig {
         let mut bus = Bus::new();
         bus.advance(self.bus.now());
         #[cfg(feature = "real")]
-        let set_up = if self.has_port() {
+        let set_up = if self.has_link() {
             lesson.describe(bus, host)
         } else {
             lesson.set_up_on(Bench::new(bus), host)

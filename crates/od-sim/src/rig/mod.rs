@@ -66,26 +66,26 @@ pub struct Rig {
     pub(crate) describes: bool,
     /// The link to a real bus.
     #[cfg(feature = "real")]
-    port: Option<Port>,
+    link: Option<Link>,
     /// The lesson in progress.
     #[cfg(feature = "lessons")]
     lesson: Option<LessonRun>,
 }
 
+/// The link to a real bus: frames for it, and counts of frames that were held back or dropped.
 #[cfg(feature = "real")]
-/// Frames for the link, and counts of frames that were held back or dropped.
 #[derive(Default)]
-struct Port {
+struct Link {
     sends: bool,
     out: VecDeque<Frame>,
-    /// Frames that were held back.
+    /// Number of frames that were held back because sending is off.
     held: u64,
     /// Number of items that were dropped before they were drained.
     dropped: u64,
 }
 
-#[cfg(feature = "lessons")]
 /// A lesson in progress, and the names that its set-up gave the devices.
+#[cfg(feature = "lessons")]
 struct LessonRun {
     progress: Progress,
     /// The bench without its bus, which belongs to the rig.

@@ -4,27 +4,27 @@ use std::prelude::v1::*;
 
 use od_wire::Frame;
 
-use super::{LineEvent, Port, Rig};
+use super::{LineEvent, Link, Rig};
 
 /// Limit of items that wait to be drained; the oldest are dropped.
 const MOST: usize = 20_000;
 
 impl Rig {
     /// Puts the rig on a real bus. Nothing is sent until [`set_sending`](Self::set_sending).
-    pub(crate) fn open_port(&mut self) {
-        self.port = Some(Port::default());
+    pub(crate) fn open_link(&mut self) {
+        self.link = Some(Link::default());
     }
 
     /// Returns whether it is on a real bus.
-    pub(crate) fn has_port(&self) -> bool {
-        self.port.is_some()
+    pub(crate) fn has_link(&self) -> bool {
+        self.link.is_some()
     }
 
     /// Sends or holds back the frames of this side: those of the user and of all devices.
     pub fn set_sending(&mut self, on: bool) {
-        if let Some(port) = &mut self.port {
-            port.sends = on;
-            port.out.clear();
+        if let Some(link) = &mut self.link {
+            link.sends = on;
+            link.out.clear();
         }
     }
 
@@ -47,43 +47,39 @@ impl Rig {
 
     /// Returns the next frame to send over the link.
     pub fn outgoing(&mut self) -> Option<Frame> {
-        self.port.as_mut()?.out.pop_front()
+        self.link.as_mut()?.out.pop_front()
     }
 
     /// Returns how many frames were held back because sending is off.
     pub fn held(&self) -> u64 {
-        self.port.as_ref().map_or(0, |port| port.held)
+        self.link.as_ref().map_or(0, |link| link.held)
     }
 
     /// Returns the number of items that were dropped before they were drained.
     pub fn dropped(&self) -> u64 {
-        self.port.as_ref().map_or(0, |port| port.dropped)
+        self.link.as_ref().map_or(0, |link| link.dropped)
     }
 
     /// Offers a frame of this side to the link, which queues it, or holds it back while sending is off.
     /// Returns whether the frame is sent; `true` without a link.
     pub(super) fn offer_to_link(&mut self, frame: &Frame) -> bool {
-        let Some(port) = &mut self.port else {
+        let Some(link) = &mut self.link else {
             return true;
         };
-        if port.sends {
-            port.out.push_back(*frame)
+        if link.sends {
+            link.out.push_back(*frame)
         } else {
-            port.held += 1
+            link.held += 1
         }
-        port.sends
-    }
-
-    pub(super) fn has_link(&self) -> bool {
-        self.has_port()
+        link.sends
     }
 
     /// Drops the oldest items above the limit.
     pub(super) fn drop_oldest(&mut self) {
-        if let Some(port) = &mut self.port
+        if let Some(link) = &mut self.link
             && self.seen.len() >= 2 * MOST
         {
-            port.dropped += MOST as u64;
+            link.dropped += MOST as u64;
             self.seen.drain(..MOST);
         }
     }

@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use super::host::Host;
 use super::outcome::{Stop, Summary};
 use super::read::Script;
-use super::run::{Place, play, run};
+use super::run::{Progress, play, run};
 use crate::bench::Bench;
 use crate::grammar::action::Action;
 
@@ -28,9 +28,9 @@ pub struct Campaign<'s> {
     script: &'s Script,
     /// Number of lines before the first draw: they are the same for each seed.
     common: usize,
-    /// Bench and place after these lines.
+    /// Bench and progress after these lines.
     bench: Bench,
-    place: Place,
+    progress: Progress,
 }
 
 /// A run that did not reach its end.
@@ -86,13 +86,18 @@ impl<'s> Campaign<'s> {
         let common = common
             .take_while(|statement| !matches!(statement.action, Action::Random(_)))
             .count();
-        let (mut bench, mut place) = (Bench::default(), Place::new(0));
-        play(&script.statements[..common], &mut bench, host, &mut place)?;
+        let (mut bench, mut progress) = (Bench::default(), Progress::new(0));
+        play(
+            &script.statements[..common],
+            &mut bench,
+            host,
+            &mut progress,
+        )?;
         Ok(Self {
             script,
             common,
             bench,
-            place,
+            progress,
         })
     }
 
@@ -106,12 +111,12 @@ impl<'s> Campaign<'s> {
     /// # Errors
     /// The line that fails, and a script that fails in the same way.
     pub fn run(&self, seed: u64, host: &mut dyn Host) -> Result<Summary, Box<Failure>> {
-        let (mut bench, mut place) = (self.bench.clone(), self.place.with_seed(seed));
+        let (mut bench, mut progress) = (self.bench.clone(), self.progress.with_seed(seed));
         let rest = &self.script.statements[self.common..];
-        match play(rest, &mut bench, host, &mut place) {
-            Ok(()) => Ok(place.summary(bench.bus.now())),
+        match play(rest, &mut bench, host, &mut progress) {
+            Ok(()) => Ok(progress.summary(bench.bus.now())),
             Err(stop) => Err(Box::new(Failure {
-                lines: self.lines(stop.line, &place.drawn),
+                lines: self.lines(stop.line, &progress.drawn),
                 stop: *stop,
             })),
         }

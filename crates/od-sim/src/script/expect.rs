@@ -5,8 +5,8 @@ use std::prelude::v1::*;
 
 use od_runtime::Instant;
 
-use super::run::{ON_ITS_WAY, Result, Runner, failed, impossible};
-use crate::bus::Sent;
+use super::run::{Result, Runner, failed, impossible};
+use crate::bus::{Sent, UNTIL_QUIET};
 use crate::grammar::action::{Expect, Timing};
 use crate::grammar::fact::Fact;
 use crate::grammar::frames::Frames;
@@ -25,14 +25,14 @@ impl Runner<'_> {
             } => {
                 for _ in 0..*times {
                     self.frame(frames, *timing)?;
-                    self.place.held += 1;
+                    self.progress.held += 1;
                 }
                 return Ok(());
             }
             Expect::Silence(micros) => self.silence(*micros)?,
             Expect::Fact { fact, within } => self.fact(fact, *within)?,
         }
-        self.place.held += 1;
+        self.progress.held += 1;
         Ok(())
     }
 
@@ -64,7 +64,7 @@ impl Runner<'_> {
     fn silence(&mut self, micros: u64) -> Result<()> {
         self.skip_boot_ups(|_| false);
         self.advance_until_pending(self.now().plus_micros(micros));
-        match self.place.pending.front().copied() {
+        match self.progress.pending.front().copied() {
             None => Ok(()),
             Some(sent) => failed("silence", self.came(&sent)),
         }
@@ -76,7 +76,7 @@ impl Runner<'_> {
         let (until, when, exact) = match timing {
             // If frames take time, a frame that is being sent counts as received.
             Timing::Now if self.bench.bus.line.is_real() => {
-                (from.plus_micros(ON_ITS_WAY), String::new(), None)
+                (from.plus_micros(UNTIL_QUIET), String::new(), None)
             }
             Timing::Now => (from, String::new(), None),
             Timing::Within(micros) => (
@@ -93,7 +93,7 @@ impl Runner<'_> {
         self.skip_boot_ups(|frame| wanted.matches(frame));
         self.advance_until_pending(until);
         let wanted_text = format!("{wanted}{when}");
-        let Some(sent) = self.place.pending.pop_front() else {
+        let Some(sent) = self.progress.pending.pop_front() else {
             let ahead = self.look_ahead();
             return failed(wanted_text, ahead);
         };

@@ -164,7 +164,7 @@ mod tests {
     fn a_line_of_candump_is_a_frame_everywhere() {
         use crate::grammar::action::Action;
         use crate::grammar::deed::Deed;
-        use crate::grammar::typed::Typed;
+        use crate::grammar::named_frame::NamedFrame;
         use crate::script::read::Reader;
 
         for (line, frame) in [
@@ -187,7 +187,7 @@ mod tests {
                 panic!("{line}: {statement:?}");
             };
             let Action::Deed(Deed::Send {
-                frame: Typed::Frame(sent),
+                frame: NamedFrame::Frame(sent),
                 ..
             }) = statement.action
             else {

@@ -36,6 +36,6 @@ pub use crate::bench::Bench;
 pub use crate::grammar::action::{Action, Added, Draw, Expect, Outcome, Timing, When};
 pub use crate::grammar::deed::{Deed, LineChange, ShaftChange};
 pub use crate::grammar::frames::Frames;
+pub use crate::grammar::named_frame::{NamedFrame, Write, resolve};
 pub use crate::grammar::pattern::Pattern;
 pub use crate::grammar::problem::Problem;
-pub use crate::grammar::typed::{Typed, Write, resolve};

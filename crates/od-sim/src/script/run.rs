@@ -11,7 +11,7 @@ use super::limits::Limits;
 use super::outcome::{Reason, Stop, Summary};
 use super::read::{Script, Statement};
 use crate::bench::Bench;
-use crate::bus::Sent;
+use crate::bus::{Sent, UNTIL_QUIET};
 use crate::chance::Chance;
 use crate::device::VirtualDevice;
 use crate::grammar::action::{Action, Added, Draw, When};
@@ -21,8 +21,6 @@ use crate::grammar::line::line;
 use crate::grammar::pattern::Pattern;
 use crate::grammar::tokens::Tokens;
 
-/// Longest wait for a frame on a line that takes time, in microseconds, where a script names no time.
-pub(super) const ON_ITS_WAY: u64 = 100_000;
 /// Longest time in which a frame of a script is sent, in microseconds: on a line that is always full it never gets its turn.
 const SENDING: u64 = 10_000_000;
 /// Time after which a run without frames asks whether it has to end, in microseconds.
@@ -44,7 +42,7 @@ pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> 
 
 /// Progress of a script. The next line depends only on it and on the bench.
 #[derive(Clone)]
-pub(super) struct Place {
+pub(super) struct Progress {
     /// Frames of the devices that no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
     ignored: Vec<Pattern>,
@@ -59,7 +57,7 @@ pub(super) struct Place {
     pub(super) drawn: Vec<(u32, String)>,
 }
 
-impl Place {
+impl Progress {
     /// The start of a script, with the draws of a seed.
     pub(super) fn new(seed: u64) -> Self {
         Self {
@@ -74,7 +72,7 @@ impl Place {
         }
     }
 
-    /// The same place with the draws of another seed.
+    /// The same progress with the draws of another seed.
     pub(super) fn with_seed(&self, seed: u64) -> Self {
         Self {
             chance: Chance::of_seed(seed),
@@ -95,7 +93,7 @@ impl Place {
 pub(super) struct Runner<'r> {
     host: &'r mut dyn Host,
     pub(super) bench: &'r mut Bench,
-    pub(super) place: &'r mut Place,
+    pub(super) progress: &'r mut Progress,
     limits: Option<Limits>,
 }
 
@@ -119,12 +117,12 @@ pub fn run_on(
     if let Some(limits) = host.limits() {
         limits.check(script, bench.bus.devices().len(), bench.bus.now())?;
     }
-    let mut place = Place::new(host.seed());
-    play(&script.statements, bench, host, &mut place)?;
-    Ok(place.summary(bench.bus.now()))
+    let mut progress = Progress::new(host.seed());
+    play(&script.statements, bench, host, &mut progress)?;
+    Ok(progress.summary(bench.bus.now()))
 }
 
-/// Runs lines of a script from a place on.
+/// Runs lines of a script after those that made this progress.
 ///
 /// # Errors
 /// As [`run_on`].
@@ -132,18 +130,18 @@ pub(super) fn play(
     statements: &[Statement],
     bench: &mut Bench,
     host: &mut dyn Host,
-    place: &mut Place,
+    progress: &mut Progress,
 ) -> core::result::Result<(), Box<Stop>> {
     let limits = host.limits();
     let mut runner = Runner {
         host,
         bench,
-        place,
+        progress,
         limits,
     };
     for statement in statements {
         if let Err(reason) = runner.carry_out(statement) {
-            let drawn = runner.place.drawn.last();
+            let drawn = runner.progress.drawn.last();
             let drawn = drawn.filter(|(line, _)| *line == statement.line);
             return Err(Box::new(Stop {
                 line: statement.line,
@@ -161,7 +159,7 @@ impl Runner<'_> {
     fn carry_out(&mut self, statement: &Statement) -> Result<()> {
         let mut result = self.statement(statement);
         if let Some(limits) = self.limits
-            && self.place.frames.max(self.place.own) > limits.frames
+            && self.progress.frames.max(self.progress.own) > limits.frames
         {
             result = impossible(limits.flood());
         } else if self.host.stops() {
@@ -202,18 +200,18 @@ impl Runner<'_> {
             Action::Read { object, outcome } => self.read(object, outcome),
             Action::Write { write, outcome } => self.write(write, outcome),
             Action::Ignore(Some(pattern)) => {
-                self.place
+                self.progress
                     .pending
                     .retain(|sent| !pattern.matches(&sent.frame));
-                self.place.ignored.push(pattern.clone());
+                self.progress.ignored.push(pattern.clone());
                 Ok(())
             }
             Action::Ignore(None) => {
-                self.place.ignored.clear();
+                self.progress.ignored.clear();
                 Ok(())
             }
             Action::Skip => {
-                self.place.pending.clear();
+                self.progress.pending.clear();
                 Ok(())
             }
             Action::Expect(expect) => self.expect(expect),
@@ -225,17 +223,17 @@ impl Runner<'_> {
     fn draw(&mut self, number: u32, draw: &Draw) -> Result<()> {
         for _ in 0..draw.times {
             let last = draw.choices.len().saturating_sub(1);
-            let chosen = self.place.chance.up_to(last as u64) as usize;
+            let chosen = self.progress.chance.up_to(last as u64) as usize;
             let mut faults = Vec::new();
             if let Ok(device) = self.bench.present() {
                 let names = device.faults().into_iter();
                 faults.extend(names.map(|name| (name, device.is_broken(name))));
             }
-            let chance = &mut self.place.chance;
+            let chance = &mut self.progress.chance;
             let choice = &draw.choices[chosen].text;
             let text =
                 drawn(choice, &faults, &mut |last| chance.up_to(last)).or_else(impossible)?;
-            self.place.drawn.push((number, text.clone()));
+            self.progress.drawn.push((number, text.clone()));
             let (when, action) = line(Tokens::new(number, &text), &mut None)
                 .or_else(|problem| impossible(problem.to_string()))?;
             self.carry_out(&Statement {
@@ -323,27 +321,27 @@ impl Runner<'_> {
         }
         self.bench.current = first.unwrap_or_default();
         if !wanted.off {
-            let before = self.place.pending.len();
+            let before = self.progress.pending.len();
             self.bench.bus.start(self.bench.current);
             self.collect();
             // On a line that takes time, the boot-up message is still being sent.
             for station in first.unwrap_or_default() + 1..=self.bench.bus.devices().len() {
                 self.send_out(station);
             }
-            self.place
+            self.progress
                 .boot_ups
-                .extend(self.place.pending.iter().skip(before));
+                .extend(self.progress.pending.iter().skip(before));
         }
         Ok(())
     }
 
     /// Removes boot-up messages from the queue that do not match.
     pub(super) fn skip_boot_ups(&mut self, wanted: impl Fn(&Frame) -> bool) {
-        while let Some(sent) = self.place.pending.front()
-            && self.place.boot_ups.contains(sent)
+        while let Some(sent) = self.progress.pending.front()
+            && self.progress.boot_ups.contains(sent)
             && !wanted(&sent.frame)
         {
-            self.place.pending.pop_front();
+            self.progress.pending.pop_front();
         }
     }
 
@@ -383,10 +381,10 @@ impl Runner<'_> {
     }
 
     /// Lets time pass until the frames on a real line are through, with their responses; not longer than
-    /// [`ON_ITS_WAY`], because a full line always has a frame.
+    /// [`UNTIL_QUIET`], because a full line always has a frame.
     fn wait_for_responses(&mut self) {
         let bus = &mut self.bench.bus;
-        let end = bus.now().plus_micros(ON_ITS_WAY);
+        let end = bus.now().plus_micros(UNTIL_QUIET);
         while self.bench.bus.is_busy()
             && !self.must_end()
             && let Some(at) = self.bench.bus.next_deadline().filter(|at| *at <= end)
@@ -405,7 +403,7 @@ impl Runner<'_> {
 
     /// Lets time pass until a frame comes that is not ignored, or until `to`.
     pub(super) fn advance_until_pending(&mut self, to: Instant) {
-        while self.place.pending.is_empty() && !self.must_end() && self.advance_until_sent(to) {
+        while self.progress.pending.is_empty() && !self.must_end() && self.advance_until_sent(to) {
             self.collect();
         }
     }
@@ -425,7 +423,7 @@ impl Runner<'_> {
 
     /// Returns whether there were more frames than the limit of the script, or the host ends the run.
     pub(super) fn must_end(&mut self) -> bool {
-        let frames = self.place.frames.max(self.place.own);
+        let frames = self.progress.frames.max(self.progress.own);
         self.limits.is_some_and(|limits| frames > limits.frames) || self.host.stops()
     }
 
@@ -435,13 +433,13 @@ impl Runner<'_> {
             self.host.frame(sent.at, origin, &sent.frame);
             self.host.look(&mut self.bench.bus);
             if sent.device.is_none() {
-                self.place.own += 1;
+                self.progress.own += 1;
                 continue;
             }
-            self.place.frames += 1;
-            let mut ignored = self.place.ignored.iter();
+            self.progress.frames += 1;
+            let mut ignored = self.progress.ignored.iter();
             if !ignored.any(|pattern| pattern.matches(&sent.frame)) {
-                self.place.pending.push_back(sent);
+                self.progress.pending.push_back(sent);
             }
         }
     }

@@ -10,7 +10,7 @@ use od_wire::{AbortReason, CanId, Frame, NodeId};
 
 use super::run::{Result, Runner, failed, impossible};
 use crate::grammar::action::Outcome;
-use crate::grammar::typed::{Write, resolve};
+use crate::grammar::named_frame::{Write, resolve};
 use crate::words::value_text;
 
 /// A script uses segmented transfers for values of any length.
@@ -35,7 +35,7 @@ impl Runner<'_> {
                 return failed(format!("{object} = {}", shown(&wanted)), read(&bytes));
             }
         }
-        self.place.held += 1;
+        self.progress.held += 1;
         Ok(())
     }
 
@@ -47,7 +47,7 @@ impl Runner<'_> {
         ended(outcome, result, &expected, |_| {
             "the value was written".into()
         })?;
-        self.place.held += 1;
+        self.progress.held += 1;
         Ok(())
     }
 
@@ -68,13 +68,13 @@ impl Runner<'_> {
     /// after its request; other frames stay for `expect`.
     fn next_event(&mut self, client: &mut Client) -> Result<Event> {
         let id = Channel::of(self.device()?.node_id()).response;
-        let mut looked_at = self.place.pending.len();
+        let mut looked_at = self.progress.pending.len();
         loop {
             if let Some(event) = client.poll_event() {
                 return Ok(event);
             }
             while let Some(frame) = client.poll_transmit(self.now()) {
-                looked_at = self.place.pending.len();
+                looked_at = self.progress.pending.len();
                 self.send(&frame);
             }
             if let Some(answer) = self.answer(id, &mut looked_at) {
@@ -92,9 +92,13 @@ impl Runner<'_> {
 
     /// Takes the next received frame with this CAN-ID.
     fn answer(&mut self, id: CanId, looked_at: &mut usize) -> Option<Frame> {
-        while let Some(sent) = self.place.pending.get(*looked_at) {
+        while let Some(sent) = self.progress.pending.get(*looked_at) {
             if sent.frame.id() == id && !sent.frame.is_remote() {
-                return self.place.pending.remove(*looked_at).map(|sent| sent.frame);
+                return self
+                    .progress
+                    .pending
+                    .remove(*looked_at)
+                    .map(|sent| sent.frame);
             }
             *looked_at += 1;
         }

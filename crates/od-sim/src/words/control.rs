@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use od_runtime::Frame;
 use od_wire::nmt::{Command, Repr, State};
 
-use super::said::{Service, Words};
+use super::description::{Service, Words};
 
 pub(super) fn nmt(frame: &Frame) -> Words {
     let Some(Repr { command, node }) = Repr::parse(frame.data()) else {

@@ -6,14 +6,14 @@ use std::prelude::v1::*;
 use od_runtime::{CobId, Frame};
 use od_wire::emcy::{Emcy, text};
 
-use super::said::{Service, Words};
+use super::description::{Service, Words};
 use crate::device::VirtualDevice;
 
 /// Vendor-ID of the encoders of the three manuals.
 const MANUALS: u32 = 0xEC;
 
 /// Meaning of an error code of a device: its manual, its profile (1000h), or CiA 301.
-pub(crate) fn text_of(code: u16, device: Option<&VirtualDevice>) -> &'static str {
+pub(crate) fn emcy_text(code: u16, device: Option<&VirtualDevice>) -> &'static str {
     let own = device.and_then(|device| {
         let kind = device.dictionary().entry(0x1000, 0)?.default.integer(0)?;
         match (kind & 0xFFFF, device.lss_address()) {
@@ -53,7 +53,7 @@ pub(super) fn words(node: u8, device: Option<&VirtualDevice>, frame: &Frame) -> 
     let text = format!(
         "{:04X}h {}, error register {:02X}h, {info}",
         emcy.code,
-        text_of(emcy.code, device),
+        emcy_text(emcy.code, device),
         emcy.register
     );
     let words = Words::new(Service::Emcy, Some(node), text);

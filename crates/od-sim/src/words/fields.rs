@@ -9,9 +9,9 @@ use od_wire::nmt::State;
 use od_wire::sdo::{Request, Response, expedited_len};
 use od_wire::{Frame, emcy, nmt};
 
+use super::description::bytes;
 use super::pdo::{Part, parts};
-use super::said::bytes;
-use super::tag::{TAGS, answered, requested, tag};
+use super::tag::{TAGS, object_of_request, object_of_response, tag};
 use super::value;
 use crate::device::VirtualDevice;
 
@@ -165,8 +165,8 @@ fn mapped(fields: &mut Fields, device: &VirtualDevice, frame: &Frame, parts: &[P
 
 /// Adds the command, object and data of an SDO frame.
 fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
-    let is_answer = frame.id().raw() < 0x600;
-    let (command, object, expedited, size) = if is_answer {
+    let is_response = frame.id().raw() < 0x600;
+    let (command, object, expedited, size) = if is_response {
         let response = Response::parse(frame.bytes());
         let (expedited, size) = match response {
             Response::InitiateUpload {
@@ -174,16 +174,26 @@ fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
             } => (expedited, size),
             _ => (None, None),
         };
-        (answer(&response), answered(&response), expedited, size)
+        (
+            response_name(&response),
+            object_of_response(&response),
+            expedited,
+            size,
+        )
     } else {
-        let asked = Request::parse(frame.bytes());
-        let (expedited, size) = match asked {
+        let request = Request::parse(frame.bytes());
+        let (expedited, size) = match request {
             Request::InitiateDownload {
                 expedited, size, ..
             } => (expedited, size),
             _ => (None, None),
         };
-        (request(&asked), requested(&asked), expedited, size)
+        (
+            request_name(&request),
+            object_of_request(&request),
+            expedited,
+            size,
+        )
     };
     fields.add(0, 1, "Command", command);
     let Some(object) = object else {
@@ -221,7 +231,7 @@ fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
     }
 }
 
-fn request(request: &Request) -> &'static str {
+fn request_name(request: &Request) -> &'static str {
     match request {
         Request::InitiateDownload { .. } => "Initiate download",
         Request::DownloadSegment { .. } => "Download segment",
@@ -239,7 +249,7 @@ fn request(request: &Request) -> &'static str {
     }
 }
 
-fn answer(response: &Response) -> &'static str {
+fn response_name(response: &Response) -> &'static str {
     match response {
         Response::InitiateDownload { .. } => "Initiate download",
         Response::DownloadSegment { .. } => "Download segment",

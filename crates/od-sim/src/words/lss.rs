@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::Frame;
 
-use super::said::{Service, Words, bytes};
+use super::description::{Service, Words, bytes};
 
 fn name(command: u8) -> Option<&'static str> {
     Some(match command {
@@ -52,7 +52,7 @@ pub(super) fn request(frame: &Frame) -> Words {
     })
 }
 
-pub(super) fn answer(frame: &Frame) -> Words {
+pub(super) fn response(frame: &Frame) -> Words {
     words(frame, |command, data| match (command, data) {
         (0x11 | 0x13 | 0x17, [0, ..]) => ": done".into(),
         (0x11 | 0x13 | 0x17, [error, specific, ..]) => format!(": error {error} ({specific})"),

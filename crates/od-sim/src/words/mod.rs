@@ -4,12 +4,12 @@
 //! segmented or block transfer.
 
 mod control;
+mod description;
 mod emcy;
 mod fields;
 pub mod fold;
 mod lss;
 mod pdo;
-mod said;
 mod sdo;
 mod sorted;
 mod tag;
@@ -21,13 +21,13 @@ use std::prelude::v1::*;
 
 use od_runtime::Frame;
 
-pub(crate) use control::command_text as command;
+pub(crate) use control::command_text;
+pub use description::{Service, Words};
+pub(crate) use description::{bytes, plural};
 #[cfg(feature = "serve")]
-pub(crate) use emcy::text_of as emcy_text;
+pub(crate) use emcy::emcy_text;
 pub use fields::{Field, fields};
 pub use pdo::layout;
-pub use said::{Service, Words};
-pub(crate) use said::{bytes, plural};
 pub use tag::{TAGS, Tag, tag};
 pub(crate) use value::show as value_text;
 
@@ -72,7 +72,7 @@ impl Decoder {
                 sdo::explain(transfer, device, id < 0x600, node, frame)
             }
             0x701..=0x77F => control::error_control(node, frame),
-            0x7E4 => lss::answer(frame),
+            0x7E4 => lss::response(frame),
             0x7E5 => lss::request(frame),
             _ => Words::new(Service::Unknown, None, "no service uses this CAN-ID"),
         }

@@ -8,7 +8,7 @@ use od_model::typed::MapEntry;
 use od_model::{Address, values};
 use od_runtime::{CobId, Frame};
 
-use super::said::{Service, Words, bytes};
+use super::description::{Service, Words, bytes};
 use super::value::show_mapped;
 use crate::device::VirtualDevice;
 

@@ -8,7 +8,7 @@ use od_runtime::Frame;
 use od_wire::AbortReason;
 use od_wire::sdo::{Request, Response, expedited_len};
 
-use super::said::{Service, Words, bytes};
+use super::description::{Service, Words, bytes};
 use super::value;
 use crate::device::VirtualDevice;
 use crate::sdo::{Message, Observer};
@@ -34,12 +34,12 @@ struct Explainer<'e> {
 pub(super) fn explain(
     transfer: &mut Transfer,
     device: Option<&VirtualDevice>,
-    answer: bool,
+    is_response: bool,
     node: u8,
     frame: &Frame,
 ) -> Words {
-    let service = if answer {
-        Service::SdoAnswer
+    let service = if is_response {
+        Service::SdoResponse
     } else {
         Service::SdoRequest
     };
@@ -52,7 +52,7 @@ pub(super) fn explain(
     if frame.is_remote() || frame.dlc() == 0 {
         return explainer.words("not an SDO message");
     }
-    let message = explainer.transfer.observer.read(answer, frame);
+    let message = explainer.transfer.observer.read(is_response, frame);
     let is_in_segments = matches!(
         message,
         None | Some(
@@ -65,7 +65,7 @@ pub(super) fn explain(
     }
     let words = match message {
         Some(Message::Request(request)) => explainer.request(request, frame),
-        Some(Message::Response(response)) => explainer.answer(response, frame),
+        Some(Message::Response(response)) => explainer.response(response, frame),
         Some(Message::Segment {
             number, is_last, ..
         }) => {
@@ -147,7 +147,7 @@ impl Explainer<'_> {
                         let sent = frame.data().len().saturating_sub(4);
                         let len = size.map_or(sent, |size| size as usize).min(4);
                         let own = self.type_size(address);
-                        let len = own.map_or(len, |own| if own < len { own } else { len });
+                        let len = own.map_or(len, |own| own.min(len));
                         let text = format!("write {name} = {}", self.show(&data[..len]));
                         self.words(text)
                     }
@@ -188,7 +188,7 @@ impl Explainer<'_> {
         }
     }
 
-    fn answer(&mut self, response: Response, frame: &Frame) -> Words {
+    fn response(&mut self, response: Response, frame: &Frame) -> Words {
         match response {
             Response::InitiateUpload {
                 address,

@@ -66,18 +66,18 @@ pub fn tag(frame: &Frame) -> Tag {
 }
 
 /// The object of an SDO frame; segments contain none.
-fn object(frame: &Frame, is_answer: bool) -> Option<Address> {
+fn object(frame: &Frame, is_response: bool) -> Option<Address> {
     if frame.is_remote() || frame.dlc() < 4 {
         return None;
     }
-    if is_answer {
-        answered(&Response::parse(frame.bytes()))
+    if is_response {
+        object_of_response(&Response::parse(frame.bytes()))
     } else {
-        requested(&Request::parse(frame.bytes()))
+        object_of_request(&Request::parse(frame.bytes()))
     }
 }
 
-pub(super) fn requested(request: &Request) -> Option<Address> {
+pub(super) fn object_of_request(request: &Request) -> Option<Address> {
     match request {
         Request::InitiateUpload { address }
         | Request::InitiateDownload { address, .. }
@@ -88,7 +88,7 @@ pub(super) fn requested(request: &Request) -> Option<Address> {
     }
 }
 
-pub(super) fn answered(response: &Response) -> Option<Address> {
+pub(super) fn object_of_response(response: &Response) -> Option<Address> {
     match response {
         Response::InitiateUpload { address, .. }
         | Response::InitiateDownload { address, .. }

@@ -24,7 +24,7 @@ pub enum Service {
     /// SDO, client to server.
     SdoRequest,
     /// SDO, server to client.
-    SdoAnswer,
+    SdoResponse,
     /// Boot-up, heartbeat, guarding.
     ErrorControl,
     /// Layer setting.
@@ -42,7 +42,7 @@ impl Service {
             Self::Time => "TIME",
             Self::Emcy => "EMCY",
             Self::Tpdo | Self::Rpdo => "PDO",
-            Self::SdoRequest | Self::SdoAnswer => "SDO",
+            Self::SdoRequest | Self::SdoResponse => "SDO",
             Self::ErrorControl => "NMT EC",
             Self::Lss => "LSS",
             Self::Unknown => "?",

@@ -11,13 +11,13 @@ use super::tokens::Tokens;
 
 /// A comparison with a value, as written.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Test {
-    how: How,
+pub struct Comparison {
+    operator: Operator,
     text: String,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum How {
+pub(crate) enum Operator {
     Equal,
     Unequal,
     Below,
@@ -29,30 +29,30 @@ pub(crate) enum How {
 }
 
 /// The signs of comparisons.
-pub(crate) const SIGNS: [(&str, How); 7] = [
-    ("=", How::Equal),
-    ("!=", How::Unequal),
-    ("<", How::Below),
-    ("<=", How::AtMost),
-    (">", How::Above),
-    (">=", How::AtLeast),
-    ("in", How::Between),
+pub(crate) const SIGNS: [(&str, Operator); 7] = [
+    ("=", Operator::Equal),
+    ("!=", Operator::Unequal),
+    ("<", Operator::Below),
+    ("<=", Operator::AtMost),
+    (">", Operator::Above),
+    (">=", Operator::AtLeast),
+    ("in", Operator::Between),
 ];
 
-impl Test {
+impl Comparison {
     /// Reads the value after a sign.
-    pub(crate) fn value(how: How, tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
+    pub(crate) fn value(operator: Operator, tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
         let here = *tokens;
         let value = tokens.take_rest();
         let between = value.rest().contains("..");
-        if value.is_empty() || (how == How::Between) != between {
+        if value.is_empty() || (operator == Operator::Between) != between {
             return Err(here.problem(
                 "the value is missing",
                 "write `= 500`, `!= 0`, `< 10`, `<= 10`, `> 10`, `>= 10` or `in 10..20`",
             ));
         }
         Ok(Self {
-            how,
+            operator,
             text: value.rest().to_owned(),
         })
     }
@@ -60,16 +60,26 @@ impl Test {
     /// Reads a comparison with a number: `= 5`, or only `5`.
     pub(crate) fn number(tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
         let sign = tokens.peek();
-        let how = SIGNS.iter().find(|(name, _)| *name == sign);
-        if how.is_some() {
+        let operator = SIGNS.iter().find(|(name, _)| *name == sign);
+        if operator.is_some() {
             tokens.next();
         }
         let here = *tokens;
-        let test = Self::value(how.map_or(How::Equal, |(_, how)| *how), tokens)?;
-        if test.text.split("..").all(|part| number(part).is_some()) {
-            Ok(test)
+        let comparison = Self::value(
+            operator.map_or(Operator::Equal, |(_, operator)| *operator),
+            tokens,
+        )?;
+        if comparison
+            .text
+            .split("..")
+            .all(|part| number(part).is_some())
+        {
+            Ok(comparison)
         } else {
-            Err(here.problem(format!("`{}` is not a number", test.text), "write a number"))
+            Err(here.problem(
+                format!("`{}` is not a number", comparison.text),
+                "write a number",
+            ))
         }
     }
 
@@ -90,9 +100,9 @@ impl Test {
     /// Reason why it cannot be compared.
     pub(crate) fn holds(&self, data_type: DataType, bytes: &[u8]) -> Result<bool, String> {
         self.fits(data_type)?;
-        match self.how {
-            How::Equal => Ok(values::parse(data_type, &self.text)? == bytes),
-            How::Unequal => Ok(values::parse(data_type, &self.text)? != bytes),
+        match self.operator {
+            Operator::Equal => Ok(values::parse(data_type, &self.text)? == bytes),
+            Operator::Unequal => Ok(values::parse(data_type, &self.text)? != bytes),
             _ => match as_number(data_type, bytes) {
                 Some(value) => Ok(self.holds_number(value)),
                 None => Err(format!("{data_type} has no order; write `=` or `!=`")),
@@ -116,27 +126,27 @@ impl Test {
         let Some(wanted) = number(low) else {
             return false;
         };
-        match self.how {
-            How::Equal => value == wanted,
-            How::Unequal => value != wanted,
-            How::Below => value < wanted,
-            How::AtMost => value <= wanted,
-            How::Above => value > wanted,
-            How::AtLeast => value >= wanted,
-            How::Between => number(high).is_some_and(|high| (wanted..=high).contains(&value)),
+        match self.operator {
+            Operator::Equal => value == wanted,
+            Operator::Unequal => value != wanted,
+            Operator::Below => value < wanted,
+            Operator::AtMost => value <= wanted,
+            Operator::Above => value > wanted,
+            Operator::AtLeast => value >= wanted,
+            Operator::Between => number(high).is_some_and(|high| (wanted..=high).contains(&value)),
         }
     }
 
     /// The comparison in words, for use after "is".
     pub(crate) fn words(&self) -> String {
-        match self.how {
-            How::Equal => self.text.clone(),
-            How::Unequal => format!("other than {}", self.text),
-            How::Below => format!("below {}", self.text),
-            How::AtMost => format!("at most {}", self.text),
-            How::Above => format!("above {}", self.text),
-            How::AtLeast => format!("at least {}", self.text),
-            How::Between => self.text.replace("..", " to "),
+        match self.operator {
+            Operator::Equal => self.text.clone(),
+            Operator::Unequal => format!("other than {}", self.text),
+            Operator::Below => format!("below {}", self.text),
+            Operator::AtMost => format!("at most {}", self.text),
+            Operator::Above => format!("above {}", self.text),
+            Operator::AtLeast => format!("at least {}", self.text),
+            Operator::Between => self.text.replace("..", " to "),
         }
     }
 }
@@ -157,7 +167,7 @@ fn as_number(data_type: DataType, bytes: &[u8]) -> Option<f64> {
     }
 }
 
-/// Reads a number of a lesson: a whole number in any form, or one with a decimal point.
+/// Reads a number: a whole number in any form, or one with a decimal point.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     match values::integer(text) {
@@ -173,11 +183,11 @@ mod tests {
     #[test]
     fn a_value_is_shown_in_the_base_of_the_comparison() {
         let shown = |text: &str, data_type, bytes: &[u8]| {
-            let test = Test {
-                how: How::Equal,
+            let comparison = Comparison {
+                operator: Operator::Equal,
                 text: text.into(),
             };
-            test.show(data_type, bytes)
+            comparison.show(data_type, bytes)
         };
         assert_eq!(shown("0x0237", DataType::Unsigned16, &[0x50, 2]), "0250h");
         assert_eq!(

@@ -14,7 +14,7 @@ use crate::device::VirtualDevice;
 
 /// A frame by name; its bytes may depend on the current device.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Typed {
+pub enum NamedFrame {
     /// By its CAN-ID and bytes.
     Frame(Frame),
     /// NMT command to a node, 0 for all; `None`: to the current device.
@@ -38,7 +38,7 @@ pub struct Write {
     pub data_type: Option<DataType>,
 }
 
-impl Typed {
+impl NamedFrame {
     /// Returns the frame for this device.
     ///
     /// # Errors
