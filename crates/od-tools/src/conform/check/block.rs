@@ -2,8 +2,8 @@
 
 use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{
-    self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence, NoObject, ReadOnly,
-    UnsupportedAccess,
+    self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence, Length, NoObject, OutOfMemory,
+    ReadOnly, TooLong, TooShort, UnsupportedAccess,
 };
 use od_wire::Frame;
 
@@ -381,10 +381,21 @@ fn begin_download(
 fn write(
     dut: &mut Dut<'_>,
     (address, bytes): (Address, &[u8]),
-    mut how: How,
+    how: How,
     spoil: u16,
 ) -> Checked<Result<(), u32>> {
-    let (mut block, _) = begin_download(dut, address, how, bytes.len())?;
+    write_announced(dut, (address, bytes), how, spoil, bytes.len())
+}
+
+/// As [`write`], with another size in the first request.
+fn write_announced(
+    dut: &mut Dut<'_>,
+    (address, bytes): (Address, &[u8]),
+    mut how: How,
+    spoil: u16,
+    announced: usize,
+) -> Checked<Result<(), u32>> {
+    let (mut block, _) = begin_download(dut, address, how, announced)?;
     let segments: Vec<&[u8]> = bytes.chunks(7).collect();
     let mut done = 0;
     while done < segments.len() {
@@ -508,6 +519,41 @@ pub(super) fn download_wrong_crc(dut: &mut Dut<'_>) -> Checked {
         Ok(()) => fail("abort 05040004h", "a wrong checksum was accepted"),
         Err(code) => is_abort(&request(0x80, address, code.to_le_bytes()), &[Crc]),
     }
+}
+
+/// A block download of more or of fewer bytes than the client announced is refused, and changes nothing.
+pub(super) fn download_wrong_size(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = writable(dut)?;
+    dut.keep(address)?;
+    written(dut, PLAIN)?;
+    let mut other = before.clone();
+    other.iter_mut().take(1).for_each(|byte| *byte ^= 1);
+    let codes = [Length, TooLong, TooShort, OutOfMemory, InvalidCommand];
+    for announced in [before.len() + 1, before.len() - 1] {
+        // A server may refuse the size itself.
+        let size = (announced as u32).to_le_bytes();
+        let answer = dut.answer(request(0xC2, address, size))?;
+        if abort_of(&answer).is_some() {
+            is_abort(&answer, &codes)?;
+            continue;
+        }
+        let close = request(0x80, address, [0, 0, 0, 8]);
+        dut.send(Frame::full(dut.node.plus(0x600), close))?;
+        let done = match write_announced(dut, (address, &other), PLAIN, 0, announced)? {
+            Ok(()) => fail(
+                format!(
+                    "an abort for {} bytes by a block download that announced {announced}",
+                    other.len()
+                ),
+                "they were accepted",
+            ),
+            Err(code) => is_abort(&request(0x80, address, code.to_le_bytes()), &codes),
+        };
+        dut.fault(done)?;
+        let done = dut.is_as_written(address, &before);
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 /// Bytes that CiA 301 reserves in the responses of a block download, and in the end of a block upload, are 0.

@@ -252,6 +252,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.2.4.3.10: The server requests a lost segment again."),
         check("sdo-block-download-wrong-crc", block::download_wrong_crc,
             "CiA 301 7.2.4.3.17: A wrong checksum is refused with 05040004h."),
+        check("sdo-block-download-size", block::download_wrong_size,
+            "CiA 301 7.2.4.3.9: A block download of more or fewer bytes than announced is refused."),
         check("sdo-block-download-aborted", block::download_aborted,
             "CiA 301 7.2.4.3.17: An abort of the client ends a block download, which writes nothing."),
         check("sdo-block-refused", block::refused_objects,

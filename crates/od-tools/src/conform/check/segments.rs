@@ -8,6 +8,7 @@ use od_wire::AbortCode::{
 use od_wire::Frame;
 use od_wire::nmt::Command;
 
+use super::transfer::optional;
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::eds::is_number;
 use crate::conform::end::{Checked, ensure, fail, lacks, skip};
@@ -277,12 +278,30 @@ pub(super) fn download_too_short(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
+/// A segment without a transfer is refused, and one of an upload in a download and the reverse.
 pub(super) fn no_transfer(dut: &mut Dut<'_>) -> Checked {
+    const OF_UPLOAD: [u8; 8] = [0x60, 0, 0, 0, 0, 0, 0, 0];
+    const OF_DOWNLOAD: [u8; 8] = [0x0D, 0, 0, 0, 0, 0, 0, 0];
     dut.still_serves()?;
-    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
-    is_abort(&answer, &[InvalidCommand, ToggleBit])?;
-    let answer = dut.answer([0x0D, 0, 0, 0, 0, 0, 0, 0])?;
-    is_abort(&answer, &[InvalidCommand, ToggleBit])
+    for segment in [OF_UPLOAD, OF_DOWNLOAD] {
+        let answer = dut.answer(segment)?;
+        is_abort(&answer, &[InvalidCommand, ToggleBit])?;
+    }
+    if let Some((address, bytes)) = optional(long_value(dut))? {
+        begin(dut, address)?;
+        let answer = dut.answer(OF_DOWNLOAD)?;
+        is_abort(&answer, &[InvalidCommand, ToggleBit])?;
+        dut.is_as_written(address, &bytes)?;
+    }
+    let Some((address, before)) = optional(short_value(dut))? else {
+        return Ok(());
+    };
+    if optional(begin_download(dut, address, before.len()))?.is_some() {
+        let answer = dut.answer(OF_UPLOAD)?;
+        is_abort(&answer, &[InvalidCommand, ToggleBit])?;
+        unchanged(dut, address, &before)?;
+    }
+    Ok(())
 }
 
 /// After an abort of the client no transfer is open.
