@@ -56,3 +56,11 @@ pub(crate) fn skip<T>(why: impl Into<String>) -> Checked<T> {
 pub(crate) fn ensure(holds: bool, expected: impl Into<String>, got: impl Into<String>) -> Checked {
     if holds { Ok(()) } else { fail(expected, got) }
 }
+
+/// The result of a step, or `None` if it is not applicable.
+pub(crate) fn optional<T>(found: Checked<T>) -> Checked<Option<T>> {
+    match found {
+        Err(End::NotApplicable(_)) => Ok(None),
+        found => found.map(Some),
+    }
+}

@@ -233,7 +233,7 @@ pub(super) fn life_ends(dut: &mut Dut<'_>) -> Checked {
         let done = ensure(
             state & 0x80 == wanted,
             format!(
-                "toggle bit {} in the response after the error, since only a reset begins it anew",
+                "toggle bit {} in the response after the error, since only a reset makes it 0",
                 wanted >> 7
             ),
             format!("{state:02X}h came"),

@@ -5,9 +5,8 @@ use od_wire::nmt::Command;
 use od_wire::{AbortCode, Frame};
 
 use super::segments;
-use super::transfer::optional;
 use crate::conform::dut::{Dut, is_data, state_name};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, ensure, fail, lacks, optional};
 use crate::conform::sdo::request;
 
 pub(super) const PRODUCER: Address = Address::new(0x1017, 0);

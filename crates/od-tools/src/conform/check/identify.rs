@@ -253,7 +253,7 @@ fn has_only_lss(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Asks whether any node without a node ID responds.
+/// The request that every node without a node ID responds to.
 const START: Request = Request::Fastscan {
     number: 0,
     bit: 128,

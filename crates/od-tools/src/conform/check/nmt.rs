@@ -5,10 +5,10 @@ use od_wire::nmt::{Command, Repr};
 use od_wire::{CanId, CobId, Frame};
 
 use super::servers::Channel;
-use super::transfer::{another_value, kinds, optional};
+use super::transfer::{another_value, kinds};
 use super::{block, heartbeat, segments, transmit};
 use crate::conform::dut::{Dut, QUIET, is_data, state_name};
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks, optional};
 use crate::conform::record::Traced;
 use crate::conform::sdo::request;
 

@@ -8,10 +8,9 @@ use od_wire::AbortCode::{
 use od_wire::Frame;
 use od_wire::nmt::Command;
 
-use super::transfer::optional;
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, ensure, fail, lacks, skip};
+use crate::conform::end::{Checked, ensure, fail, lacks, optional, skip};
 use crate::conform::sdo::{abort_of, abort_text, is_abort, names, request, reserved_are_0};
 
 /// An object with a value of more than four bytes, if possible of more than seven.

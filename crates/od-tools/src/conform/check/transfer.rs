@@ -12,7 +12,7 @@ use od_wire::{AbortCode, CanId, Frame};
 use super::{block, segments};
 use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::eds::is_number;
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks, optional};
 use crate::conform::sdo::{abort_of, is_abort, request};
 
 const TYPE: Address = Address::new(0x1000, 0);
@@ -87,14 +87,6 @@ pub(super) fn one_answer(dut: &mut Dut<'_>) -> Checked {
     block::serves(dut)?;
     dut.silent(id, QUIET, "no SDO response after the end of a block upload")?;
     Ok(())
-}
-
-/// The object, if the node has one for this test.
-pub(super) fn optional<T>(found: Checked<T>) -> Checked<Option<T>> {
-    match found {
-        Err(End::NotApplicable(_)) => Ok(None),
-        found => found.map(Some),
-    }
 }
 
 pub(super) fn read_write_back(dut: &mut Dut<'_>) -> Checked {
