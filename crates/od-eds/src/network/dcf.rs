@@ -43,7 +43,12 @@ pub fn dcf(master: &Master, nodes: &[Node], remote: bool) -> Description {
     made.commission("NetNumber", "1");
     made.commission("CANopenManager", "1");
     made.commission("LSS_SerialNumber", &format!("0x{serial:08X}"));
-    communication(&mut made, master, nodes);
+    variables(&mut made, master);
+    errors(&mut made, master, nodes);
+    if master.consumes_heartbeat {
+        heartbeats(&mut made, nodes);
+    }
+    identity(&mut made, master);
     let (received, sent) = (pdos(nodes, 0x1800), pdos(nodes, 0x1400));
     for (own, (first, application), what, access) in [
         (&received, (0x1400, 0x2000), "RPDO", Access::Rww),
@@ -59,8 +64,8 @@ pub fn dcf(master: &Master, nodes: &[Node], remote: bool) -> Description {
     made
 }
 
-/// The objects of CiA 301 without the PDOs.
-fn communication(made: &mut Description, master: &Master, nodes: &[Node]) {
+/// The objects of CiA 301 with one value.
+fn variables(made: &mut Description, master: &Master) {
     use DataType::{Unsigned8, Unsigned16, Unsigned32};
     let rw = Access::Rw;
     for (index, name, data_type, access, default) in [
@@ -149,69 +154,57 @@ fn communication(made: &mut Description, master: &Master, nodes: &[Node]) {
         entry.mappable = Spanned::from(index == 0x1013);
         var(made, index, entry);
     }
-    let errors = ("Pre-defined error field", Unsigned32, Access::Ro);
-    array(made, 0x1003, errors, (254, 0), &[]);
+}
+
+/// The error history, the EMCY messages that the master receives, and its reaction to errors.
+fn errors(made: &mut Description, master: &Master, nodes: &[Node]) {
+    use DataType::{Unsigned8, Unsigned32};
+    let history = ("Pre-defined error field", Unsigned32, Access::Ro);
+    array(made, 0x1003, history, (254, 0), &[]);
     // The list of errors is empty; an application clears it by writing 0.
     if let Some(object) = made.objects.get_mut(&0x1003) {
-        let count = value("Number of errors", Unsigned8, rw, unsigned(0));
+        let count = value("Number of errors", Unsigned8, Access::Rw, unsigned(0));
         object.entries.insert(0, count);
     }
-    if master.consumes_heartbeat {
-        let times = nodes
-            .iter()
-            .filter_map(|node| match node.number(0x1017, 0) {
-                0 => None,
-                own => {
-                    let time = (f64::from(own) * node.heartbeat_multiplier) as u32;
-                    Some(u32::from(node.id) << 16 | time & 0xFFFF)
-                }
-            });
-        let times: Vec<_> = (1..).zip(times).collect();
-        array(
-            made,
-            0x1016,
-            ("Consumer heartbeat time", Unsigned32, rw),
-            (127, 0),
-            &times,
-        );
-    }
-    let identity = [
+    let emcy = nodes.iter().filter(|node| node.has(0x1014));
+    let emcy = emcy.map(|node| (node.id, node.number(0x1014, 0)));
+    let emcy: Vec<_> = emcy.filter(|(_, cob_id)| cob_id >> 31 == 0).collect();
+    let consumer = ("Emergency consumer object", Unsigned32, Access::Rw);
+    array(made, 0x1028, consumer, (127, 1 << 31), &emcy);
+    let behavior = ("Error behavior object", Unsigned8, Access::Rw);
+    array(made, 0x1029, behavior, (254, 0), &master.error_behavior);
+}
+
+/// The heartbeats that the master monitors.
+fn heartbeats(made: &mut Description, nodes: &[Node]) {
+    let time = |node: &Node| match node.number(0x1017, 0) {
+        0 => None,
+        own => {
+            let time = (f64::from(own) * node.heartbeat_multiplier) as u32;
+            Some(u32::from(node.id) << 16 | time & 0xFFFF)
+        }
+    };
+    let times: Vec<_> = (1..).zip(nodes.iter().filter_map(time)).collect();
+    let object = ("Consumer heartbeat time", DataType::Unsigned32, Access::Rw);
+    array(made, 0x1016, object, (127, 0), &times);
+}
+
+/// The identity of the master; its serial number is in [DeviceComissioning].
+fn identity(made: &mut Description, master: &Master) {
+    let names = [
         "Vendor-ID",
         "Product code",
         "Revision number",
         "Serial number",
     ];
-    let identity =
-        (1..)
-            .zip(identity.into_iter().zip(master.identity))
-            .map(|(sub, (name, number))| {
-                let default = unsigned(number).filter(|_| sub < 4);
-                (sub, value(name, Unsigned32, Access::Ro, default))
-            });
-    members(
-        made,
-        0x1018,
-        ("Identity object", ObjectCode::Record),
-        4,
-        identity,
-    );
-    let emcy = nodes.iter().filter(|node| node.has(0x1014));
-    let emcy = emcy.map(|node| (node.id, node.number(0x1014, 0)));
-    let emcy: Vec<_> = emcy.filter(|(_, cob_id)| cob_id >> 31 == 0).collect();
-    array(
-        made,
-        0x1028,
-        ("Emergency consumer object", Unsigned32, rw),
-        (127, 1 << 31),
-        &emcy,
-    );
-    array(
-        made,
-        0x1029,
-        ("Error behavior object", Unsigned8, rw),
-        (254, 0),
-        &master.error_behavior,
-    );
+    let numbers = (1..).zip(names.into_iter().zip(master.identity));
+    let numbers = numbers.map(|(sub, (name, number))| {
+        let default = unsigned(number).filter(|_| sub < 4);
+        let entry = value(name, DataType::Unsigned32, Access::Ro, default);
+        (sub, entry)
+    });
+    let object = ("Identity object", ObjectCode::Record);
+    members(made, 0x1018, object, 4, numbers);
 }
 
 /// The objects of CiA 302-2: the list of nodes, and how the master starts them.

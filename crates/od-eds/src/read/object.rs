@@ -97,13 +97,8 @@ pub(crate) fn object(
     } else {
         flags = reader.flags(&mut fields, &mut unread).max(flags);
         // The keys of an object that is mistaken for a VAR are those of a VAR.
-        if !mistaken && matches!(*code, ObjectCode::Array | ObjectCode::Record) {
-            for key in W0325_KEYS.into_iter().filter(|key| fields.has(key.name())) {
-                let Some(place) = fields.place(key.name()) else {
-                    continue;
-                };
-                reader.report(w0325_value_of_array(place, key, *code));
-            }
+        if !mistaken {
+            keys_of_var(&mut reader, &fields, *code);
         }
     }
     let group = fields.group;
@@ -113,21 +108,17 @@ pub(crate) fn object(
         entries.insert(sub, entry);
     }
     let counted = entries.len() as u32;
+    let span = fields.header;
+    if count.is_none() && sub_number.is_none() && counted > 0 && !mistaken {
+        reader.report(w0317_sub_number_missing(span, counted));
+    }
     let sub_number = match (count, sub_number) {
         // CompactSubObj replaces it.
         (Some(count), _) => Spanned::new(counted, count.span),
-        (None, Some(given)) => match given.value {
-            Some(number) => Spanned::new(number, given.span),
-            None => Spanned::from(counted),
-        },
-        (None, None) => {
-            if counted > 0 && !mistaken {
-                reader.report(w0317_sub_number_missing(fields.header, counted));
-            }
-            Spanned::from(counted)
-        }
+        (None, given) => given
+            .and_then(|given| Some(Spanned::new(given.value?, given.span)))
+            .unwrap_or(Spanned::from(counted)),
     };
-    let span = fields.header;
     Some(ObjectDescription {
         code,
         name,
@@ -137,6 +128,18 @@ pub(crate) fn object(
         extra: extra(fields.rest(address, true, reader.log), unread),
         span,
     })
+}
+
+/// Reports the keys of a VAR in the section of an ARRAY or a RECORD.
+fn keys_of_var(reader: &mut Reader<'_>, fields: &Fields<'_>, code: ObjectCode) {
+    if !matches!(code, ObjectCode::Array | ObjectCode::Record) {
+        return;
+    }
+    for key in W0325_KEYS.into_iter().filter(|key| fields.has(key.name())) {
+        if let Some(place) = fields.place(key.name()) {
+            reader.report(w0325_value_of_array(place, key, code));
+        }
+    }
 }
 
 /// The members of a CompactSubObj: all if there is room for them, otherwise none.
