@@ -86,7 +86,14 @@ impl Overlaid {
         };
         let (origin, span) = self.locate(span);
         finding.place = Place::Text(span);
-        finding.fix = None;
+        finding.fix = finding.fix.and_then(|mut fix| {
+            let is_own = fix.edits.iter_mut().all(|edit| {
+                let (other, span) = self.locate(edit.span);
+                edit.span = span;
+                other == origin
+            });
+            is_own.then_some(fix)
+        });
         finding.related.retain_mut(|related| {
             let (other, span) = self.locate(related.span);
             related.span = span;

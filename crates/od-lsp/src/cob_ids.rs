@@ -49,6 +49,11 @@ impl CobId {
         (self.can_id, self.node_id, self.extended) == (other.can_id, other.node_id, other.extended)
     }
 
+    /// The CAN-ID of a node; `None` if it does not depend on the node ID.
+    pub(crate) fn of_node(self, node: u8) -> Option<u32> {
+        self.node_id.then(|| self.can_id + u32::from(node))
+    }
+
     /// The COB-ID in words: `180h + node ID`.
     pub(crate) fn words(self, address: Address) -> String {
         let mut words = if self.node_id {

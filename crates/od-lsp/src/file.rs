@@ -25,8 +25,10 @@ pub(crate) enum Kind {
     Xdd,
     /// Differences to an EDS.
     Overlay,
-    /// A project of dcfgen or a node list.
-    Network,
+    /// A node list.
+    NodeList,
+    /// A project of dcfgen.
+    Project,
     /// Rust source with calls of `object_dictionary!`.
     Rust,
 }
@@ -81,7 +83,7 @@ impl File {
         let kind = kind(&path, language);
         let disk = match kind {
             Kind::Eds | Kind::Xdd => host.read(&path).and_then(foreign),
-            Kind::Overlay | Kind::Network | Kind::Rust => None,
+            Kind::Overlay | Kind::NodeList | Kind::Project | Kind::Rust => None,
         };
         Self {
             uri,
@@ -124,7 +126,7 @@ impl File {
         self.seen.get_or_init(|| match self.kind {
             Kind::Eds | Kind::Xdd => self.read(host),
             Kind::Overlay => self.overlaid(host),
-            Kind::Network => self.connected(host),
+            Kind::NodeList | Kind::Project => self.connected(host),
             Kind::Rust => Seen::default(),
         })
     }
@@ -211,6 +213,9 @@ impl File {
     /// Reads a network with the files that it names.
     fn connected(&self, host: &dyn Host) -> Seen {
         let mut seen = Seen::default();
+        if self.kind == Kind::NodeList {
+            seen.layout = Layout::of(self.str());
+        }
         match &self.network {
             Some(Ok(findings)) => seen.findings.clone_from(findings),
             Some(Err(why)) => {
@@ -313,7 +318,8 @@ fn kind(path: &str, language: &str) -> Kind {
     match (extension.as_str(), language) {
         ("rs", _) | (_, "rust") => Kind::Rust,
         ("overlay", _) => Kind::Overlay,
-        ("cpj" | "yml" | "yaml", _) => Kind::Network,
+        ("cpj", _) => Kind::NodeList,
+        ("yml" | "yaml", _) => Kind::Project,
         ("xdd" | "xdc", _) => Kind::Xdd,
         _ => Kind::Eds,
     }

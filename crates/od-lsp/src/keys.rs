@@ -1,5 +1,7 @@
 //! Descriptions of the keys of CiA 306-1.
 
+use od_eds::network::keys::{Keys, OF_LIST, OF_LISTED};
+
 /// Explains a key of an object's section.
 pub(crate) fn of_object(key: &str) -> Option<&'static str> {
     Some(match key.to_ascii_lowercase().as_str() {
@@ -40,7 +42,9 @@ pub(crate) fn of_section(section: &str, key: &str) -> Option<&'static str> {
         ("fileinfo", "filename") => "Name of the file.",
         ("fileinfo", "fileversion") => "Version of the file, 0 to 255.",
         ("fileinfo", "filerevision") => "Revision of the file, 0 to 255.",
-        ("fileinfo", "edsversion") => "Version of CiA 306 that the file follows: `4.0` or `3.0`.",
+        ("fileinfo", "edsversion") => {
+            "Version of CiA 306 that the file follows: `4.0`, `4.1` or `4.2`."
+        }
         ("fileinfo", "lasteds") => "Name of the EDS that the DCF was made from.",
         ("fileinfo", "description") => "Description of the file, up to 243 characters.",
         ("fileinfo", "creationtime" | "modificationtime") => "Time of day as `09:30AM`.",
@@ -88,8 +92,20 @@ pub(crate) fn of_section(section: &str, key: &str) -> Option<&'static str> {
         ("mandatoryobjects" | "optionalobjects" | "manufacturerobjects", "supportedobjects") => {
             "Number of objects in this list."
         }
+        (section, key) if section.starts_with("topology") => return of_node_list(key),
         _ => return None,
     })
+}
+
+/// Explains a key of a node list, in lower case.
+fn of_node_list(key: &str) -> Option<&'static str> {
+    let end = key.strip_prefix("node").unwrap_or_default();
+    let end = end.trim_start_matches(|c: char| c.is_ascii_digit());
+    let meaning = |keys: Keys, name: &str| {
+        let own = keys.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
+        own.map(|(_, says)| *says)
+    };
+    meaning(OF_LIST, key).or_else(|| meaning(OF_LISTED, end))
 }
 
 /// Explains a section.
@@ -113,6 +129,9 @@ pub(crate) fn section(name: &str) -> Option<&'static str> {
         "connectedmodules" => "The modules that are plugged in, in a DCF (CiA 306-1).",
         "dynamicchannels" => "Ranges of objects for network variables (CiA 302, CiA 306-1).",
         "tools" => "Programs for this device (CiA 306-1).",
+        name if name.starts_with("topology") => {
+            "The nodes of a network, and their DCFs (CiA 306-3)."
+        }
         _ => return None,
     })
 }

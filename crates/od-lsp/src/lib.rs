@@ -23,6 +23,7 @@ mod layout;
 mod macros;
 mod mentions;
 mod message;
+mod project;
 mod server;
 mod standard;
 mod text;

@@ -252,8 +252,8 @@ impl Server {
     /// Checks all files again that depend on other files; after a save, all files.
     fn others(&mut self, but: &str) {
         for (uri, open) in &mut self.files {
-            let depends = matches!(open.file.kind, Kind::Overlay | Kind::Network | Kind::Rust);
-            let depends = depends || but.is_empty();
+            let is_alone = matches!(open.file.kind, Kind::Eds | Kind::Xdd);
+            let depends = !is_alone || but.is_empty();
             if uri != but && depends {
                 open.file.forget();
                 open.dirty = true;
@@ -281,7 +281,7 @@ impl Server {
         let seen = file.seen(&*self.host);
         let diagnostics = match file.kind {
             Kind::Rust => check::of(file, &|path| self.find(path)),
-            Kind::Eds | Kind::Xdd | Kind::Overlay | Kind::Network => diagnostics::of(file, seen),
+            _ => diagnostics::of(file, seen),
         };
         let params = PublishDiagnostics {
             uri: &file.uri,
@@ -308,7 +308,7 @@ impl Server {
                 let find = |path: &str| self.find(path);
                 base = Some(file::base(file, self.unit, &*self.host, &find));
             }
-            Kind::Network => {
+            Kind::NodeList | Kind::Project => {
                 let find = |path: &str| self.find(path).map(String::into_bytes);
                 network = Some(self.host.network(&file.path, file.str(), &find));
             }

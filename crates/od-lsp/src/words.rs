@@ -61,7 +61,12 @@ pub(crate) fn value(
     value: &Value,
 ) -> Option<String> {
     if cob_ids::is_one(at) {
-        return CobId::of(value).map(|id| format!("COB-ID {}", id.words(at)));
+        let node = description.commissioned_node_id();
+        return CobId::of(value).map(|id| {
+            let of_node = node.and_then(|node| Some((node, id.of_node(node)?)));
+            let of_node = of_node.map(|(node, id)| format!(" ({id:X}h for node {node})"));
+            format!("COB-ID {}{}", id.words(at), of_node.unwrap_or_default())
+        });
     }
     let number = value.integer(0);
     if is_mapping(at.index) && at.sub > 0 {

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use od_eds::network::keys::{Keys, OF_MASTER, OF_OPTIONS, OF_PDO, OF_SLAVE};
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
     configure, consume_heartbeats, key_twice, misspelled_key, no_sync, not_mappable, read_only,
@@ -42,58 +43,6 @@ impl From<NodeList> for Network {
     }
 }
 
-/// The keys of a slave that dcfgen knows.
-const KEYS: &[&str] = &[
-    "dcf",
-    "dcf_path",
-    "node_id",
-    "revision_number",
-    "serial_number",
-    "time_cob_id",
-    "heartbeat_multiplier",
-    "heartbeat_consumer",
-    "heartbeat_producer",
-    "retry_factor",
-    "guard_time",
-    "life_time_factor",
-    "error_behavior",
-    "rpdo",
-    "tpdo",
-    "boot",
-    "mandatory",
-    "reset_communication",
-    "software_file",
-    "software_version",
-    "restore_configuration",
-    "sdo",
-];
-
-/// The keys of a master that dcfgen knows.
-const MASTER_KEYS: &[&str] = &[
-    "node_id",
-    "baudrate",
-    "vendor_id",
-    "product_code",
-    "revision_number",
-    "serial_number",
-    "sync_period",
-    "sync_window",
-    "sync_overflow",
-    "time_cob_id",
-    "emcy_inhibit_time",
-    "heartbeat_multiplier",
-    "heartbeat_consumer",
-    "heartbeat_producer",
-    "error_behavior",
-    "nmt_inhibit_time",
-    "start",
-    "start_nodes",
-    "start_all_nodes",
-    "reset_all_nodes",
-    "stop_all_nodes",
-    "boot_time",
-];
-
 /// The keys of a slave and of a master that are flags.
 const FLAGS: &[&str] = &[
     "heartbeat_consumer",
@@ -105,21 +54,6 @@ const FLAGS: &[&str] = &[
     "start_all_nodes",
     "reset_all_nodes",
     "stop_all_nodes",
-];
-
-/// The keys of `options` that dcfgen knows.
-const OPTION_KEYS: &[&str] = &["dcf_path", "heartbeat_multiplier", "retry_factor"];
-
-/// The keys of a PDO that dcfgen knows.
-const PDO_KEYS: &[&str] = &[
-    "enabled",
-    "cob_id",
-    "transmission",
-    "inhibit_time",
-    "event_timer",
-    "event_deadline",
-    "sync_start",
-    "mapping",
 ];
 
 /// A section of a project: its name and its keys.
@@ -373,7 +307,7 @@ impl<'a> Section<'a> {
     }
 
     /// The findings about keys of `yaml` that look like one of these. Drivers of ros2_canopen have keys of their own.
-    fn misspelled(&self, yaml: &Yaml, known: &[&str]) -> Vec<Finding> {
+    fn misspelled(&self, yaml: &Yaml, known: Keys) -> Vec<Finding> {
         let keys = yaml.entries().iter();
         keys.filter_map(|(key, _)| {
             let owner = owner(self.whole, key.span);
@@ -398,14 +332,14 @@ impl<'a> Section<'a> {
 
     /// The findings about misspelled keys and flags of a slave.
     fn misspelled_of_slave(&self) -> Vec<Finding> {
-        let mut findings = self.misspelled(self.yaml, KEYS);
+        let mut findings = self.misspelled(self.yaml, OF_SLAVE);
         findings.extend(self.texts_of_flags(self.yaml, FLAGS));
         for (_, pdo) in ["rpdo", "tpdo"]
             .iter()
             .filter_map(|key| self.yaml.get(key))
             .flat_map(Yaml::entries)
         {
-            findings.extend(self.misspelled(pdo, PDO_KEYS));
+            findings.extend(self.misspelled(pdo, OF_PDO));
             findings.extend(self.texts_of_flags(pdo, &["enabled"]));
         }
         findings
@@ -588,7 +522,7 @@ pub(super) fn read(
             yaml,
             whole: &whole,
         };
-        findings.extend(own.misspelled(yaml, OPTION_KEYS));
+        findings.extend(own.misspelled(yaml, OF_OPTIONS));
         settings.dcf_path = own.text("dcf_path").unwrap_or_default();
         settings.heartbeat_multiplier = own.real("heartbeat_multiplier")?.unwrap_or(3.0);
         settings.retry_factor = own.number("retry_factor")?.unwrap_or(3);
@@ -603,7 +537,7 @@ pub(super) fn read(
         whole: &whole,
     };
     let master_places = (master.span, own.places());
-    findings.extend(own.misspelled(master, MASTER_KEYS));
+    findings.extend(own.misspelled(master, OF_MASTER));
     findings.extend(own.texts_of_flags(master, FLAGS));
     if let Some(rate) = master.get("baudrate") {
         findings.extend(unusual_bit_rate(&rate.text(), own.bit_rate(), rate.span));

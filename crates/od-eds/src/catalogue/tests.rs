@@ -237,7 +237,8 @@ fn faults_of_networks() -> Vec<Finding> {
         found.extend(lists.flat_map(|list| list.findings));
     }
     let span = crate::span::Span::default();
-    let misspelled = crate::network::misspelled_key("a", "nodeid", &["node_id"], span, &|_| false);
+    let misspelled =
+        crate::network::misspelled_key("a", "nodeid", &[("node_id", "")], span, &|_| false);
     found.extend(misspelled);
     for (given, rate) in [("300", Some(300)), ("500k", None), ("fast", None)] {
         found.extend(crate::network::unusual_bit_rate(given, rate, span));

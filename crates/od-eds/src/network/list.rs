@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::keys::{OF_LIST, OF_LISTED, names};
 use super::node::Node;
 use super::saved::saved;
 use crate::description::Description;
@@ -246,20 +247,18 @@ fn renumbered(section: &TextSection<'_>, id: u8, own: u8) -> Vec<(Span, String)>
 
 /// The key of CiA 306-3 that a key misspells: `Node5DCFName` for `Node5DCFNam`.
 fn meant(key: &str) -> Option<String> {
-    const OF_LIST: [&str; 4] = ["NetName", "NetRefd", "Nodes", "EDSBaseName"];
-    const OF_NODE: [&str; 4] = ["Present", "Name", "Refd", "DCFName"];
     let at = key.find(|c: char| c.is_ascii_digit());
     let Some((start, rest)) = at.and_then(|at| key.split_at_checked(at)) else {
-        return near(key, OF_LIST.into_iter()).map(String::from);
+        return near(key, names(OF_LIST)).map(String::from);
     };
     let end = rest.trim_start_matches(|c: char| c.is_ascii_digit());
     let number = rest.strip_suffix(end)?;
     let is_node = start.eq_ignore_ascii_case("Node");
-    let is_known = OF_NODE.iter().any(|own| own.eq_ignore_ascii_case(end));
+    let is_known = names(OF_LISTED).any(|own| own.eq_ignore_ascii_case(end));
     let end = match is_known {
         true if is_node => return None,
         true => end,
-        false => near(end, OF_NODE.into_iter())?,
+        false => near(end, names(OF_LISTED))?,
     };
     if !is_node {
         near(start, ["Node"].into_iter())?;

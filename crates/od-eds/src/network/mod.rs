@@ -7,6 +7,7 @@
 mod concise;
 mod configure;
 mod dcf;
+pub mod keys;
 mod list;
 mod load;
 mod master;

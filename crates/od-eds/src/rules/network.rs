@@ -8,6 +8,7 @@ use crate::catalogue::{Eds, say};
 use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::network::BIT_RATES;
+use crate::network::keys::{Keys, names};
 use crate::network::node::{Node, Setting};
 use crate::scan::forms::near;
 use crate::scan::number::{before_comment, number};
@@ -411,14 +412,13 @@ pub fn key_twice(given: &str, span: Span, first: Span) -> Finding {
 pub fn misspelled_key(
     node: &str,
     given: &str,
-    known: &[&str],
+    known: Keys,
     span: Span,
     has: &dyn Fn(&str) -> bool,
 ) -> Option<Finding> {
-    let mut capitals = known.iter().copied();
-    let right = match capitals.find(|own| own.eq_ignore_ascii_case(given)) {
-        Some(own) => Some(own).filter(|_| !known.contains(&given)),
-        None => near(given, known.iter().copied()),
+    let right = match names(known).find(|own| own.eq_ignore_ascii_case(given)) {
+        Some(own) => Some(own).filter(|_| names(known).all(|own| own != given)),
+        None => near(given, names(known)),
     }?;
     let finding = W1208.at(span).fact("node", node).fact("given", given);
     let finding = finding.fact("right", right);

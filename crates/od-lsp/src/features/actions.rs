@@ -81,7 +81,7 @@ pub(crate) fn fix_all(file: &File, seen: &Seen, host: &dyn Host) -> WorkspaceEdi
             file::edits(file, &format!("{}{}", file.mark(), done.document.text()))
         }
         // Their findings need other files, so that the fixes are those of one round.
-        Kind::Network => {
+        Kind::NodeList | Kind::Project => {
             let edits = fix::plan(file.str(), &seen.findings, Applicability::Safe);
             file::edits(file, &fix::apply(file.str(), &edits))
         }

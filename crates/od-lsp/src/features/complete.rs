@@ -2,12 +2,14 @@
 
 use std::ops::Range;
 
+use od_eds::network::keys::{OF_LIST, OF_LISTED};
 use od_eds::outline::{self, Form, List, OBJECT_KEYS, Place};
 
 use crate::features::complete::values::Choice;
-use crate::file::{File, Seen};
+use crate::file::{File, Kind, Seen};
 use crate::keys;
 use crate::layout::{Layout, Section};
+use crate::project;
 use crate::types::{CompletionItem, CompletionList, Markup, TextEdit};
 use crate::xdd::{self, Cursor};
 
@@ -72,6 +74,7 @@ pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> CompletionList {
             }
         }
         _ if od_eds::is_xml(file.str()) => in_tag(&line),
+        _ if file.kind == Kind::Project => in_project(&line),
         _ => in_eds(&line, seen, bytes.start),
     };
     CompletionList {
@@ -104,6 +107,31 @@ fn in_tag(line: &Line<'_>) -> Vec<CompletionItem> {
             line.items(VALUE, choices, &value)
         }
     }
+}
+
+/// The keys of a project at the beginning of a line, or in braces.
+fn in_project(line: &Line<'_>) -> Vec<CompletionItem> {
+    let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let before = line.before.trim_end_matches(is_of_word);
+    let begins = before.trim().is_empty() || before.trim_end().ends_with(['{', ',', '-']);
+    if !begins || before.contains('#') {
+        return Vec::new();
+    }
+    let word = line.behind.find(|c| !is_of_word(c));
+    let word = word.unwrap_or(line.behind.len());
+    let sign = if line.behind[word..].trim_start().starts_with(':') {
+        ""
+    } else {
+        ": "
+    };
+    let keys = project::keys(line.file.str(), line.offset).iter();
+    let choices = keys.map(|(name, says)| Choice {
+        text: Some(format!("{name}{sign}")),
+        note: Some((*says).to_owned()),
+        ..Choice::new(*name, "")
+    });
+    let start = line.offset + before.len() - line.before.len();
+    line.items(PROPERTY, choices.collect(), &(start..line.offset + word))
 }
 
 /// The completions in a line of an EDS, which begins at this byte.
@@ -207,6 +235,9 @@ fn names(
         ],
         Place::Other => {
             let name = text.get(section.name.clone()).unwrap_or_default();
+            if name.to_ascii_lowercase().starts_with("topology") {
+                return of_topology(text, section, cursor);
+            }
             let known = outline::section(name).map_or(&[][..], |(_, known)| known.keys);
             let mut all: Vec<(String, Option<&'static str>)> = Vec::new();
             for (key, _) in known {
@@ -226,6 +257,40 @@ fn names(
             all
         }
     }
+}
+
+/// The keys of a node list: those of the network, and those of the node at the cursor, or of a new one.
+fn of_topology(
+    text: &str,
+    section: &Section,
+    cursor: usize,
+) -> Vec<(String, Option<&'static str>)> {
+    let number = |key: &Range<usize>| {
+        let rest = text.get(key.clone())?.get("Node".len()..)?;
+        let end = rest.find(|c: char| !c.is_ascii_digit());
+        rest[..end.unwrap_or(rest.len())].parse::<u32>().ok()
+    };
+    let keys = || section.pairs.iter().map(|pair| &pair.key);
+    let is_here = |key: &&Range<usize>| (key.start..=key.end).contains(&cursor);
+    let above = keys().rfind(|key| key.end < cursor).and_then(number);
+    let before = &text[..cursor];
+    let typed = before.rfind(['\n', '\r']).map_or(0, |at| at + 1)..cursor;
+    let own = number(&typed).or_else(|| keys().find(is_here).and_then(number));
+    let node = own.or(above).unwrap_or(1);
+    let mut all: Vec<(String, Option<&'static str>)> = Vec::new();
+    for id in [Some(node), (own.is_none() && node < 127).then(|| node + 1)] {
+        let keys = OF_LISTED.iter();
+        all.extend(id.into_iter().flat_map(|id| {
+            let named = keys.clone();
+            named.map(move |(end, says)| (format!("Node{id}{end}"), Some(*says)))
+        }));
+    }
+    all.extend(
+        OF_LIST
+            .iter()
+            .map(|(name, says)| ((*name).to_owned(), Some(*says))),
+    );
+    all
 }
 
 /// The largest number at the end of a key, without the key at the cursor: `3` of `Line3` or `3`.
@@ -255,10 +320,10 @@ fn value(line: &Line<'_>, seen: &Seen, section: &Section, sign: usize) -> Vec<Co
             let known = outline::section(name).and_then(|(_, known)| outline::key(known, key));
             match known {
                 Some((_, Form::Flag)) => vec![Choice::new("0", "no"), Choice::new("1", "yes")],
-                Some((_, Form::Version)) => vec![
-                    Choice::new("4.0", "CiA 306-1"),
-                    Choice::new("3.0", "CiA 306"),
-                ],
+                Some((_, Form::Version)) => {
+                    let versions = ["4.0", "4.1", "4.2"].into_iter();
+                    versions.map(|own| Choice::new(own, "CiA 306-1")).collect()
+                }
                 Some(("Baudrate", _)) => bit_rates(text, &seen.layout),
                 _ => Vec::new(),
             }

@@ -7,10 +7,11 @@ use od_eds::outline::{self, Compact, Place};
 use od_eds::{Description, Eds, Finding, say};
 use od_model::{Access, Address, DataType, ObjectCode};
 
-use crate::file::{File, Seen};
+use crate::file::{File, Kind, Seen};
 use crate::keys;
 use crate::layout::{Pair, Section, Spot, bytes};
 use crate::mentions::{self, listed, mapped, number, plain};
+use crate::project;
 use crate::standard;
 use crate::types::{Hover, Markup};
 use crate::words;
@@ -24,6 +25,13 @@ pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> Option<Hover> {
     if let Some((said, place)) = element(file.str(), seen, offset) {
         parts.push(said);
         here = Some(place);
+    }
+    if file.kind == Kind::Project
+        && let Some(pair) = project::at(file.str(), offset)
+        && let Some(says) = project::meaning(file.str(), &pair.key)
+    {
+        parts.push(format!("`{}`: {says}", file.part(pair.key.clone())));
+        here = Some(pair.key);
     }
     for finding in &seen.findings {
         let Some(span) = finding.span().map(bytes) else {
@@ -54,7 +62,10 @@ fn said(file: &File, seen: &Seen, spot: Spot<'_>) -> Vec<String> {
     let about = about(file, seen, section);
     let own = match spot {
         Spot::Header(_) => None,
-        Spot::Key(_, pair) => key(file, section, pair),
+        Spot::Key(_, pair) => match listed(file.str(), section, pair) {
+            Some(index) => Some(object(seen, Address::new(index, 0), true)),
+            None => key(file, section, pair),
+        },
         Spot::Value(_, pair) => value(file, seen, section, pair),
     };
     match (own, about) {
@@ -135,7 +146,30 @@ fn key(file: &File, section: &Section, pair: &Pair) -> Option<String> {
         Place::Object(_) | Place::Member(..) => keys::of_object(key),
         _ => keys::of_section(file.part(section.name.clone()), key),
     };
-    said.map(|said| format!("`{}`: {said}", key.replace('`', "'")))
+    let name = file.part(section.name.clone());
+    let dummy = key.strip_prefix("Dummy").filter(|_| name == "DummyUsage");
+    let dummy = dummy.and_then(|code| u16::from_str_radix(code, 16).ok());
+    let dummy = dummy.and_then(DataType::from_code);
+    let dummy = dummy.map_or_else(String::new, |own| format!(" It is {}.", own.name()));
+    said.map(|said| format!("`{}`: {said}{dummy}", key.replace('`', "'")))
+}
+
+/// A value of another section in words: its meaning, and its number in the other base.
+fn other(file: &File, section: &Section, pair: &Pair) -> Option<String> {
+    let said = key(file, section, pair)?;
+    let given = file.part(plain(file.str(), pair));
+    let name = file.part(section.name.clone());
+    let form = outline::section(name).and_then(|(_, known)| {
+        let (_, form) = outline::key(known, file.part(pair.key.clone()))?;
+        Some(form)
+    });
+    let is_number = matches!(form, Some(outline::Form::Number(_)));
+    let number = number(file.str(), pair).filter(|_| is_number);
+    Some(match number {
+        Some(number @ 10..) => format!("{said}\n\n{number} ({number:X}h)"),
+        Some(number @ 0..) if given != number.to_string() => format!("{said}\n\n{number}"),
+        _ => said,
+    })
 }
 
 /// A value in words.
@@ -162,7 +196,7 @@ fn value(file: &File, seen: &Seen, section: &Section, pair: &Pair) -> Option<Str
             let sub = outline::number(file.part(pair.key.clone()))?;
             Address::new(index, u8::try_from(sub).ok()?)
         }
-        _ => return key(file, section, pair),
+        _ => return other(file, section, pair),
     };
     let key = file.part(pair.key.clone()).to_ascii_lowercase();
     let code = || number(text, pair).and_then(|number| u16::try_from(number).ok());

@@ -8,9 +8,9 @@ use od_model::Address;
 use crate::cob_ids::{self, CobId};
 use crate::file::{File, Kind, Seen};
 use crate::host::NoHost;
-use crate::layout::Spot;
-use crate::mentions::{self, Mention, What, number};
-use crate::xdd;
+use crate::layout::{Spot, bytes};
+use crate::mentions::{self, Mention, What, number, plain};
+use crate::{project, uri, xdd};
 
 /// Subject of a place.
 enum Target {
@@ -118,6 +118,28 @@ pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<u
             found
         }
     }
+}
+
+/// The path of the file that is named at a place: the base of an overlay, the EDS of a DCF, the DCF of a node.
+pub(crate) fn named_file(file: &File, seen: &Seen, offset: usize) -> Option<String> {
+    let text = file.str();
+    let name = match (file.kind, seen.layout.spot(offset)) {
+        (Kind::Project, _) => project::file(text, offset)?,
+        (Kind::Overlay, None) => {
+            let base = od_eds::base_of(text)?;
+            let place = bytes(base.span);
+            (place.start <= offset && offset <= place.end).then_some(base.value)?
+        }
+        (_, Some(Spot::Value(section, pair))) => {
+            let key = file.part(pair.key.clone()).to_ascii_lowercase();
+            let section = file.part(section.name.clone()).to_ascii_lowercase();
+            let is_file = key == "lasteds" && section == "fileinfo"
+                || key.ends_with("dcfname") && section.starts_with("topology");
+            text.get(plain(text, pair)).filter(|_| is_file)?
+        }
+        _ => return None,
+    };
+    Some(uri::join(&file.path, &name.replace('\\', "/")))
 }
 
 /// Place of an object's description in the base of an overlay.

@@ -6,7 +6,8 @@ use od_eds::Description;
 use od_eds::outline::{Compact, Place};
 use od_model::Address;
 
-use crate::file::{File, Seen};
+use crate::file::{File, Kind, Seen};
+use crate::project;
 use crate::types::DocumentSymbol;
 use crate::words;
 
@@ -31,6 +32,18 @@ struct Part {
 
 /// The outline, in file order.
 pub(crate) fn of(file: &File, seen: &Seen) -> Vec<DocumentSymbol> {
+    if file.kind == Kind::Project {
+        let sections = project::sections(file.str()).into_iter();
+        let part = |(name, whole): (Range<usize>, Range<usize>)| Part {
+            place: Place::Other,
+            name: file.part(name.clone()).into(),
+            own: String::new(),
+            whole: name.start..whole.end.max(name.end),
+            header: name,
+        };
+        let symbols = sections.map(|section| symbol(file, &part(section), &seen.description));
+        return symbols.collect();
+    }
     let mut found: Vec<DocumentSymbol> = Vec::new();
     // The object of the last symbol; sub-objects are added to it.
     let mut open = None;

@@ -13,8 +13,9 @@ use crate::macros::features as macros;
 use crate::message::{self, Fault};
 use crate::types::{
     AtPosition, DeltaParams, DocumentId, Highlight, InRange, Location, OfDocument, PrepareRename,
-    Tokens, TokensDelta, TokensEdit, WorkspaceEdit,
+    Range, Tokens, TokensDelta, TokensEdit, WorkspaceEdit,
 };
+use crate::uri;
 
 fn read<T: DeserializeOwned>(params: Value) -> Result<T, Fault> {
     serde_json::from_value(params).map_err(|error| Fault::params(&error))
@@ -46,13 +47,7 @@ impl Server {
             "textDocument/completion" => self.at(params, |file, seen, _, at| {
                 Ok(message::answer(id, &complete::at(file, seen, at)))
             }),
-            "textDocument/definition" => self.at(params, |file, seen, _, at| {
-                let found = match jump::in_base(file, seen, at) {
-                    Some((base, bytes)) => locations(base, vec![bytes]),
-                    None => locations(file, jump::definition(file, seen, at)),
-                };
-                Ok(message::answer(id, &found))
-            }),
+            "textDocument/definition" => self.definition(id, params),
             "textDocument/references" => self.at(params, |file, seen, params, at| {
                 let declared = params.context.include_declaration;
                 let mut found = locations(file, jump::references(file, seen, at, declared));
@@ -173,6 +168,28 @@ impl Server {
         let (open, host) = self.open(&params.text_document)?;
         let bytes = open.file.text.bytes(params.range);
         answer(&open.file, open.file.seen(host), &params, &bytes)
+    }
+
+    /// The place that describes what a position is about, or the file that it names.
+    fn definition(&mut self, id: &Value, params: Value) -> Result<String, Fault> {
+        let params: AtPosition = read(params)?;
+        let (open, host) = self.open(&params.text_document)?;
+        let file = &open.file;
+        let at = file.text.offset(params.position);
+        let seen = file.seen(host);
+        let named = jump::named_file(file, seen, at);
+        let found = match (
+            named.filter(|path| host.read(path).is_some()),
+            jump::in_base(file, seen, at),
+        ) {
+            (Some(path), _) => vec![Location {
+                uri: uri::of(&path, &file.uri),
+                range: Range::default(),
+            }],
+            (None, Some((base, bytes))) => locations(base, vec![bytes]),
+            (None, None) => locations(file, jump::definition(file, seen, at)),
+        };
+        Ok(message::answer(id, &found))
     }
 
     /// Gives an object another index, in its file, in the base below it, and in the open overlays above it.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::support::{Client, TEXT, URI, covered, edited, labels, place};
+use crate::support::{Client, Files, TEXT, URI, covered, edited, labels, place};
 
 #[test]
 fn a_hover_describes_the_place() {
@@ -201,4 +201,44 @@ fn outline_folding_and_hints() {
         json!({ "textDocument": { "uri": URI }, "range": one }),
     );
     assert_eq!(labels(&hints), ["6004h:00, 32 bits"]);
+}
+
+/// A DCF tells the COB-ID of its node; the number of a list entry and a dummy tell what they are about.
+#[test]
+fn hover_tells_what_a_number_stands_for() {
+    let node = "[DeviceComissioning]\nNodeID=0x11\nBaudrate=500\n";
+    let dummy = "[DummyUsage]\nDummy0005=1\n";
+    let text = format!("{TEXT}\n{node}{dummy}");
+    let mut client = Client::with(&text);
+    for (mark, part) in [
+        ("NodeID=0x1|1", "17 (11h)"),
+        (
+            "DefaultValue=$NODEID+0x18|0",
+            "180h + node ID (191h for node 17)",
+        ),
+        ("8|=0x6004", "Position value"),
+        ("Dummy0005|=1", "UNSIGNED8"),
+    ] {
+        let hover = client.at("textDocument/hover", &text, mark);
+        let said = hover["contents"]["value"].as_str().unwrap_or_default();
+        assert!(said.contains(part), "{mark}: {said}");
+    }
+}
+
+#[test]
+fn a_dcf_and_an_overlay_lead_to_the_files_that_they_name() {
+    let dcf = "[FileInfo]\nLastEDS=small.eds\n";
+    let overlay = ";odkit-base=small.eds\n[2001]\nDefaultValue=8\n";
+    let mut files = Files::default();
+    files.0.insert("/w/small.eds".into(), TEXT.into());
+    let mut client = Client::new(files, json!({}));
+    for (uri, text, mark) in [
+        ("file:///w/a.dcf", dcf, "LastEDS=sm|all.eds"),
+        ("file:///w/a.overlay", overlay, ";odkit-base=sm|all.eds"),
+    ] {
+        client.open(uri, text);
+        let params = json!({ "textDocument": { "uri": uri }, "position": place(text, mark) });
+        let found = client.request("textDocument/definition", params);
+        assert_eq!(found[0]["uri"], "file:///w/small.eds", "{mark}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::support::{Client, Files};
+use crate::support::{Client, Files, place};
 
 const LIST: &str = "file:///w/nodelist.cpj";
 const DCF: &str = "file:///w/n4.dcf";
@@ -81,4 +81,90 @@ fn a_node_list_has_quick_fixes() {
             ("Apply all safe fixes of odkit", "Node4Present=1\n"),
         ]
     );
+}
+
+const BUS: &str = "file:///w/bus.yml";
+
+const PROJECT: &str = "master:\n  node_id: 1\nnodes:\n  left: {dcf: n4.dcf, node_id: 4}\n  right:\n    dcf: \"./n4.dcf\"\n    hea\n";
+
+/// Params of a request at the mark `|` in a text.
+fn at(uri: &str, text: &str, mark: &str) -> serde_json::Value {
+    json!({ "textDocument": { "uri": uri }, "position": place(text, mark) })
+}
+
+#[test]
+fn a_key_of_a_network_is_explained() {
+    let mut client = client(TEXT);
+    client.open(BUS, PROJECT);
+    for (uri, text, mark, part) in [
+        (LIST, TEXT, "Node4Pre|sent", "if the node is present"),
+        (LIST, TEXT, "Nod|es=", "Number of nodes"),
+        (LIST, TEXT, "[Topo|logy]", "CiA 306-3"),
+        (BUS, PROJECT, "  node_i|d: 1", "Node ID of the master"),
+        (BUS, PROJECT, "node_id: |4", "Node ID, 1 to 127"),
+    ] {
+        let hover = client.request("textDocument/hover", at(uri, text, mark));
+        let said = hover["contents"]["value"].as_str().unwrap_or_default();
+        assert!(said.contains(part), "{mark}: {said}");
+    }
+}
+
+#[test]
+fn a_network_has_an_outline_and_leads_to_its_files() {
+    let mut client = client(TEXT);
+    client.open(BUS, PROJECT);
+    for (uri, text, mark) in [
+        (LIST, TEXT, "=n4|.dcf"),
+        (BUS, PROJECT, "{dcf: n|4"),
+        (BUS, PROJECT, "./n4|.dcf"),
+    ] {
+        let found = client.request("textDocument/definition", at(uri, text, mark));
+        assert_eq!(found[0]["uri"], DCF, "{mark}");
+    }
+    let none = client.request("textDocument/definition", at(BUS, PROJECT, "node_id: 4|}"));
+    assert_eq!(none, json!([]));
+    for (uri, names) in [
+        (LIST, &["Topology"][..]),
+        (BUS, &["master", "nodes", "left", "right"]),
+    ] {
+        let params = json!({ "textDocument": { "uri": uri } });
+        let symbols = client.request("textDocument/documentSymbol", params);
+        let symbols = symbols.as_array().expect("symbols").iter();
+        let found: Vec<_> = symbols
+            .map(|one| one["name"].as_str().expect("a name"))
+            .collect();
+        assert_eq!(found, names);
+    }
+}
+
+#[test]
+fn keys_of_a_network_are_completed() {
+    let list = format!("{TEXT}Node5\n");
+    let mut client = client(&list);
+    client.open(BUS, PROJECT);
+    for (uri, text, mark, label, new) in [
+        (
+            LIST,
+            list.as_str(),
+            "Node5|\n",
+            "Node5DCFName",
+            "Node5DCFName=",
+        ),
+        (
+            BUS,
+            PROJECT,
+            "    hea|\n",
+            "heartbeat_producer",
+            "heartbeat_producer: ",
+        ),
+        (BUS, PROJECT, "{d|cf:", "dcf", "dcf"),
+    ] {
+        let found = client.request("textDocument/completion", at(uri, text, mark));
+        let items = found["items"].as_array().expect("items");
+        let one = items.iter().find(|one| one["label"] == label);
+        let one = one.unwrap_or_else(|| panic!("{mark}: {found}"));
+        assert_eq!(one["textEdit"]["newText"], new, "{mark}");
+    }
+    let none = client.request("textDocument/completion", at(BUS, PROJECT, "node_id: 4|}"));
+    assert_eq!(none["items"], json!([]));
 }

@@ -193,3 +193,22 @@ fn a_rename_reaches_base_and_overlay() {
         assert_eq!(above, overlay.replace("[2001]", "[2005]"));
     }
 }
+
+/// A fix whose edits are all in the overlay is a quick fix there.
+#[test]
+fn an_overlay_has_quick_fixes() {
+    let overlay = "[2001]\nAccessType=r0\n";
+    let mut client = above(false, overlay);
+    let line = json!({ "line": 1, "character": 0 });
+    let params = json!({
+        "textDocument": { "uri": OVERLAY },
+        "range": { "start": line, "end": line },
+        "context": { "diagnostics": [] },
+    });
+    let actions = client.request("textDocument/codeAction", params);
+    let edit = &actions[0]["edit"]["changes"][OVERLAY][0];
+    assert_eq!(
+        (&edit["newText"], &edit["range"]["start"]["line"]),
+        (&json!("ro"), &json!(1))
+    );
+}
