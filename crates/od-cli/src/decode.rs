@@ -71,6 +71,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         if log.lacks_times {
             note!("{path}: the log has no times; `candump -ta` or `candump -L` writes them");
         }
+        if let [first, .., last] = &log.channels[..] {
+            let count = log.channels.len();
+            note!("{path}: the frames of {count} channels ({first} to {last}) are shown together");
+        }
         skipped += log.skipped.len();
         for record in &log.records {
             let frame = match record.what {

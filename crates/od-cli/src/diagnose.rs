@@ -73,7 +73,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Some(name) => reports.push((name.clone(), listen(args, name)?)),
         None => {
             for path in &args.logs {
-                reports.push((path.display().to_string(), read(path)?));
+                for (channel, records) in read(path)? {
+                    let name = if channel.is_empty() {
+                        path.display().to_string()
+                    } else {
+                        format!("{}, channel {channel}", path.display())
+                    };
+                    reports.push((name, records));
+                }
             }
         }
     }
@@ -112,9 +119,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn read(path: &Path) -> Result<Vec<Record>, Failure> {
+/// The records of each channel, which is a bus of its own.
+fn read(path: &Path) -> Result<Vec<(String, Vec<Record>)>, Failure> {
     let shown = path.display();
-    let log = read_log(path)?;
+    let mut log = read_log(path)?;
     if log.lacks_times {
         let left_out: Vec<&str> = rules_with_times().collect();
         note!(
@@ -122,7 +130,7 @@ fn read(path: &Path) -> Result<Vec<Record>, Failure> {
             left_out.join(", ")
         );
     }
-    Ok(log.records)
+    Ok(log.take_channels())
 }
 
 fn listen(args: &Args, name: &str) -> Result<Vec<Record>, Failure> {

@@ -321,6 +321,37 @@ fn the_command_shows_causes_and_sets_the_exit_code() {
     );
 }
 
+/// A node ID on two buses is two nodes.
+#[test]
+fn each_channel_of_a_log_is_a_bus_of_its_own() {
+    let mut log = String::new();
+    for beat in 0..20 {
+        log += &format!("({}.000) can0 705#05\n({}.300) can1 705#05\n", beat, beat);
+    }
+    let both = odkit(&["diagnose", "-", "--check"], &log);
+    assert_eq!(both.code, 0, "{}", both.out);
+    for part in [
+        "-, channel can0: 0 incidents in 20 records",
+        "-, channel can1: 0 incidents",
+    ] {
+        assert!(both.out.contains(part), "{}", both.out);
+    }
+    let one = odkit(&["diagnose", "-", "--check"], &log.replace("can1", "can0"));
+    assert!(
+        one.out.contains("two devices have node ID 5"),
+        "{}",
+        one.out
+    );
+    let words = odkit(&["decode", "-"], &log);
+    assert!(
+        words
+            .err
+            .contains("the frames of 2 channels (can0 to can1)"),
+        "{}",
+        words.err
+    );
+}
+
 /// The log of a case as `candump` prints it without an option: frames in their order, without times.
 fn without_times(case: &Case<'_>) -> Vec<Incident> {
     let mut records = log(case);

@@ -373,6 +373,9 @@ impl Node {
             Message::Request(Request::EndBlockUpload) | Message::Segment { .. } => {}
             // A server that aborts a transfer, too, which its client has aborted.
             Message::Response(Response::Abort { .. }) if self.is_aborted && !self.is_pending => {}
+            // A log that begins in the middle of a transfer.
+            Message::Request(Request::DownloadSegment(_) | Request::UploadSegment { .. })
+                if self.exchanges.is_empty() && self.observer.object.is_none() => {}
             Message::Request(request) => {
                 self.is_aborted = false;
                 self.end(seen, Outcome::GaveUp);

@@ -6,6 +6,7 @@ mod adapters;
 mod asc;
 mod blf;
 pub mod candump;
+mod channel;
 mod columns;
 mod csv;
 mod foreign;

@@ -5,6 +5,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
+use super::channel::{Channels, Form, apart};
 use super::pcap::Capture;
 use super::record::{Entry, Reader, Record, Unread, What};
 use super::{adapters, asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc, typed};
@@ -22,6 +23,18 @@ pub struct Log {
     /// Whether the log has no times, as `candump` prints it without `-t`, or an adapter of slcan sends it. All records then
     /// have time 0.
     pub lacks_times: bool,
+    /// Names of the channels if there are two and more: interfaces of `candump` and python-can, channels of an ASC.
+    pub channels: Vec<String>,
+    /// The number of the channel of each record.
+    pub(super) numbers: Vec<u8>,
+}
+
+impl Log {
+    /// Takes the records of each channel with its name; of a log with one channel, all without a name.
+    pub fn take_channels(&mut self) -> Vec<(String, Vec<Record>)> {
+        let numbers = core::mem::take(&mut self.numbers);
+        apart(core::mem::take(&mut self.records), numbers, &self.channels)
+    }
 }
 
 /// Converts times of day to times from the start, in microseconds; a log that starts near 0 keeps its times.
@@ -47,13 +60,17 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
         } = capture?;
         return Ok(Log {
             others,
-            ..finish(records, skipped)
+            ..finish(
+                records.into_iter().map(|record| (record, 0)).collect(),
+                skipped,
+            )
         });
     }
     let text = plain(&decoded(bytes));
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
     let mut lacks_times = is_untimed(&lines);
-    let (mut reader, may_be_deltas) = match choose(&lines, lacks_times) {
+    let mut is_typed = false;
+    let (mut reader, form) = match choose(&lines, lacks_times) {
         Some(chosen) => chosen,
         None if text.trim().is_empty() => return Err("it is empty: no frame was recorded".into()),
         None => {
@@ -66,12 +83,15 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
                     .into());
             }
             lacks_times = typed::is_untimed(&lines);
-            (typed::reader(), true)
+            is_typed = true;
+            (typed::reader(), Form::Other)
         }
     };
     let mut records = Vec::new();
     let mut skipped = Vec::new();
     let mut others = 0;
+    let may_be_deltas = form == Form::Candump || is_typed;
+    let mut channels = Channels::new(form);
     for (line, text) in (1..).zip(&lines) {
         // A log in an issue is often between two fences of Markdown, or below the command that wrote it.
         if text.trim().is_empty() || text.starts_with("```") || is_command(text) {
@@ -83,7 +103,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             reader(text)
         };
         match read {
-            Ok(Entry::Record(record)) => records.push(record),
+            Ok(Entry::Record(record)) => records.push((record, channels.number(text))),
             Ok(Entry::Other) => others += 1,
             Ok(Entry::Nothing) => {}
             Err(why) => skipped.push(Unread {
@@ -95,7 +115,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     }
     if may_be_deltas && are_deltas(&records) {
         let mut at = Instant::ZERO;
-        for record in &mut records {
+        for (record, _) in &mut records {
             at = at.plus_micros(record.at.as_micros());
             record.at = at;
         }
@@ -105,6 +125,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
         _ => Ok(Log {
             lacks_times,
             others,
+            channels: channels.names(),
             ..finish(records, skipped)
         }),
     }
@@ -158,9 +179,12 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
         .map(|line| line.trim_start_matches("> "))
 }
 
-fn finish(mut records: Vec<Record>, skipped: Vec<Unread>) -> Log {
-    records.sort_by_key(|record| record.at);
-    let start = records.first().map_or(0, |record| record.at.as_micros());
+fn finish(mut records: Vec<(Record, u8)>, skipped: Vec<Unread>) -> Log {
+    records.sort_by_key(|(record, _)| record.at);
+    let start = records
+        .first()
+        .map_or(0, |(record, _)| record.at.as_micros());
+    let (mut records, numbers): (Vec<Record>, Vec<u8>) = records.into_iter().unzip();
     if start > WALL_CLOCK {
         for record in &mut records {
             record.at = Instant::from_micros(record.at.as_micros() - start);
@@ -171,16 +195,19 @@ fn finish(mut records: Vec<Record>, skipped: Vec<Unread>) -> Log {
         skipped,
         lacks_times: false,
         others: 0,
+        channels: Vec::new(),
+        numbers,
     }
 }
 
 /// Returns whether the times are those since the frame before, as `candump -td` prints them: the first is 0, and at
 /// least one of four is less than the one before it.
-fn are_deltas(records: &[Record]) -> bool {
-    let falls = records.windows(2).filter(|pair| pair[1].at < pair[0].at);
+fn are_deltas(records: &[(Record, u8)]) -> bool {
+    let falls = records.windows(2);
+    let falls = falls.filter(|pair| pair[1].0.at < pair[0].0.at);
     records
         .first()
-        .is_some_and(|first| first.at == Instant::ZERO)
+        .is_some_and(|(first, _)| first.at == Instant::ZERO)
         && falls.count() * 4 >= records.len().max(4) - 1
 }
 
@@ -199,24 +226,24 @@ fn command(line: &str) -> &str {
     line.strip_prefix("cansend ").unwrap_or(line)
 }
 
-/// The reader of the format that a line of the head shows, and whether its times may be those since the frame before.
-fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, bool)> {
+/// The reader of the format that a line of the head shows, and its form.
+fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, Form)> {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
     // The rows of some of them look like those of an ASC log.
     if head().any(columns::is_one) {
-        return Some((columns::reader(lines), false));
+        return Some((columns::reader(lines), Form::Columns));
     }
     if head().any(trc::is_one) {
-        return Some((trc::reader(lines), false));
+        return Some((trc::reader(lines), Form::Other));
     }
     if head().any(asc::is_one) {
-        return Some((asc::reader(lines), false));
+        return Some((asc::reader(lines), Form::Asc));
     }
     if head().any(csv::is_one) {
-        return Some((csv::reader(lines), false));
+        return Some((csv::reader(lines), Form::Other));
     }
     if head().any(adapters::is_one) {
-        return Some((adapters::reader(), false));
+        return Some((adapters::reader(), Form::Other));
     }
     let is_candump = |line: &str| {
         let mut rest = Cursor::new(line);
@@ -235,7 +262,7 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, bool)
                 matches!(&read, Ok(Entry::Record(record)) if matches!(record.what, What::Error(_)));
             read
         });
-        (reader as Reader<'t>, true)
+        (reader as Reader<'t>, Form::Candump)
     })
 }
 
