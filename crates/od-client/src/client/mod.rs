@@ -135,8 +135,9 @@ impl Client {
         _ = self.watch.add(node, Some(heartbeat));
     }
 
-    /// Ends the monitoring that [`watch`](Self::watch) began.
+    /// Ends the monitoring that [`watch`](Self::watch) began. Boot-up messages and states of the node are still reported.
     pub fn unwatch(&mut self, node: NodeId) {
+        // This cannot fail, as in `watch`.
         _ = self.watch.add(node, None);
     }
 
@@ -154,8 +155,8 @@ impl Client {
         self.tasks.handle_frame(now, frame, &mut self.events);
         if let Some((node, state)) = watch::parse(frame) {
             if !self.watch.contains(node) {
-                // Boot-up messages and states of all nodes are reported.
-                self.unwatch(node);
+                // Boot-up messages and states of all nodes are reported. This cannot fail, as in `watch`.
+                _ = self.watch.add(node, None);
             }
             let lane = self.lanes.iter_mut().find(|lane| lane.node() == node);
             if let Some(lane) = lane.filter(|_| state == State::Initialising) {

@@ -34,7 +34,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// 1 s, 50 ms, 10 ms.
+    /// 1 s for a response, 50 ms for a step of fastscan, 10 ms to settle.
     pub const DEFAULT: Self = Self {
         timeout: Duration::from_secs(1),
         scan: Duration::from_millis(50),

@@ -3,12 +3,12 @@
 use od_wire::AbortCode;
 use od_wire::sdo::{Request, Response, block_segment, block_segments, crc16, unused};
 
-use super::line::Line;
+use super::exchange::Exchange;
 use crate::error::{Error, Expected};
 
 /// A block download after its initiation.
 #[derive(Clone, Debug)]
-pub(super) struct Blocks {
+pub(super) struct BlockDownload {
     /// The server checks a CRC.
     crc: bool,
     /// Segments that the server accepts before it responds.
@@ -24,23 +24,23 @@ pub(super) struct Blocks {
 }
 
 /// Checks the block size of a server; fails unless it is 1 to 127.
-fn check(line: &mut Line, block_size: u8, expected: Expected, got: Response) -> bool {
+fn check(exchange: &mut Exchange, block_size: u8, expected: Expected, got: Response) -> bool {
     let fits = (1..=127).contains(&block_size);
     if !fits {
-        line.refuse(AbortCode::InvalidBlockSize, expected, got);
+        exchange.refuse(AbortCode::InvalidBlockSize, expected, got);
     }
     fits
 }
 
-impl Blocks {
+impl BlockDownload {
     /// Starts after the response of the server. `None` if its block size is invalid.
-    pub(super) fn new(line: &mut Line, crc: bool, block_size: u8) -> Option<Self> {
+    pub(super) fn new(exchange: &mut Exchange, crc: bool, block_size: u8) -> Option<Self> {
         let got = Response::InitiateBlockDownload {
-            address: line.address,
+            address: exchange.address,
             crc,
             block_size,
         };
-        check(line, block_size, Expected::BlockDownload, got).then_some(Self {
+        check(exchange, block_size, Expected::BlockDownload, got).then_some(Self {
             crc,
             block_size,
             done: 0,
@@ -69,15 +69,15 @@ impl Blocks {
     }
 
     /// Handles a response of the server.
-    pub(super) fn handle(&mut self, line: &mut Line, data: &[u8], response: Response) {
+    pub(super) fn handle(&mut self, exchange: &mut Exchange, data: &[u8], response: Response) {
         match response {
-            Response::EndBlockDownload if self.is_complete => line.finish(),
+            Response::EndBlockDownload if self.is_complete => exchange.finish(),
             Response::BlockDownloadResponse { ack, .. } if !self.is_complete && ack > self.sent => {
                 let expected = Expected::BlockConfirmation;
-                line.refuse(AbortCode::InvalidSequence, expected, response);
+                exchange.refuse(AbortCode::InvalidSequence, expected, response);
             }
             Response::BlockDownloadResponse { ack, block_size } if !self.is_complete => {
-                self.confirmed(line, data, ack, block_size);
+                self.confirmed(exchange, data, ack, block_size);
             }
             other => {
                 let expected = if self.is_complete {
@@ -85,33 +85,33 @@ impl Blocks {
                 } else {
                     Expected::BlockConfirmation
                 };
-                line.refuse(AbortCode::InvalidCommand, expected, other);
+                exchange.refuse(AbortCode::InvalidCommand, expected, other);
             }
         }
     }
 
     /// The server has the first `ack` segments of the block; the others are repeated.
-    fn confirmed(&mut self, line: &mut Line, data: &[u8], ack: u8, block_size: u8) {
+    fn confirmed(&mut self, exchange: &mut Exchange, data: &[u8], ack: u8, block_size: u8) {
         if usize::from(ack) >= self.segments_left(data) {
             self.is_complete = true;
             let unused = unused(data.len());
             let crc = if self.crc { crc16(data) } else { 0 };
-            return line.send(Request::EndBlockDownload { unused, crc });
+            return exchange.send(Request::EndBlockDownload { unused, crc });
         }
         let got = Response::BlockDownloadResponse { ack, block_size };
-        if !check(line, block_size, Expected::BlockConfirmation, got) {
+        if !check(exchange, block_size, Expected::BlockConfirmation, got) {
             return;
         }
         if ack > 0 {
             self.stalls = 0;
-        } else if self.stalls < line.options.repeats {
+        } else if self.stalls < exchange.options.repeats {
             self.stalls += 1;
         } else {
-            return line.fail(AbortCode::InvalidSequence, Error::NoProgress);
+            return exchange.fail(AbortCode::InvalidSequence, Error::NoProgress);
         }
         self.done += usize::from(ack) * 7;
         self.sent = 0;
         self.block_size = block_size;
-        line.stop_waiting();
+        exchange.stop_waiting();
     }
 }

@@ -4,12 +4,12 @@ use od_wire::sdo::{Request, Response, crc16};
 use od_wire::{AbortCode, Instant};
 
 use super::buffer::Buffer;
-use super::line::{Line, parse};
+use super::exchange::{Exchange, parse};
 use crate::error::{Error, Expected};
 
 /// A block upload after its initiation.
 #[derive(Clone, Debug)]
-pub(super) struct Blocks {
+pub(super) struct BlockUpload {
     /// The server computes a CRC.
     crc: bool,
     /// Announced length in bytes.
@@ -26,7 +26,7 @@ pub(super) struct Blocks {
     stalls: u8,
 }
 
-impl Blocks {
+impl BlockUpload {
     pub(super) const fn new(crc: bool, size: Option<u32>, block_size: u8) -> Self {
         Self {
             crc,
@@ -53,7 +53,7 @@ impl Blocks {
     /// at the end of the block tells the server where to continue.
     pub(super) fn segment(
         &mut self,
-        line: &mut Line,
+        exchange: &mut Exchange,
         buffer: &mut impl Buffer,
         now: Instant,
         data: &[u8; 8],
@@ -63,33 +63,33 @@ impl Blocks {
         // Segments begin with 1, so 80h is an abort.
         if sequence == 0 || sequence > self.block_size {
             let got = parse(data);
-            return line.refuse(AbortCode::InvalidSequence, Expected::BlockSegment, got);
+            return exchange.refuse(AbortCode::InvalidSequence, Expected::BlockSegment, got);
         }
         self.heard = true;
-        line.wait(now);
+        exchange.wait(now);
         if sequence == self.ack + 1 {
             if last {
                 self.tail = Some(bytes);
-            } else if !line.keep(buffer, &bytes, self.size) {
+            } else if !exchange.keep(buffer, &bytes, self.size) {
                 return;
             }
             self.ack = sequence;
         }
         if last || sequence == self.block_size {
-            self.confirm(line);
+            self.confirm(exchange);
         }
     }
 
     /// Tells the server how much of the block came.
-    pub(super) fn confirm(&mut self, line: &mut Line) {
+    pub(super) fn confirm(&mut self, exchange: &mut Exchange) {
         if self.ack > 0 {
             self.stalls = 0;
-        } else if self.stalls < line.options.repeats {
+        } else if self.stalls < exchange.options.repeats {
             self.stalls += 1;
         } else {
-            return line.fail(AbortCode::InvalidSequence, Error::NoProgress);
+            return exchange.fail(AbortCode::InvalidSequence, Error::NoProgress);
         }
-        line.send(Request::BlockUploadResponse {
+        exchange.send(Request::BlockUploadResponse {
             ack: self.ack,
             block_size: self.block_size,
         });
@@ -98,20 +98,25 @@ impl Blocks {
     }
 
     /// The response after the last segment.
-    pub(super) fn end(&mut self, line: &mut Line, buffer: &mut impl Buffer, response: Response) {
+    pub(super) fn end(
+        &mut self,
+        exchange: &mut Exchange,
+        buffer: &mut impl Buffer,
+        response: Response,
+    ) {
         let Response::EndBlockUpload { unused, crc } = response else {
             let expected = Expected::BlockUploadEnd;
-            return line.refuse(AbortCode::InvalidCommand, expected, response);
+            return exchange.refuse(AbortCode::InvalidCommand, expected, response);
         };
         let tail = self.tail.unwrap_or_default();
         let tail = &tail[..7 - usize::from(unused.min(7))];
-        if !line.keep(buffer, tail, self.size) || !line.check_complete(buffer, self.size) {
+        if !exchange.keep(buffer, tail, self.size) || !exchange.check_complete(buffer, self.size) {
             return;
         }
         if self.crc && crc16(buffer.bytes()) != crc {
-            return line.fail(AbortCode::Crc, Error::Crc);
+            return exchange.fail(AbortCode::Crc, Error::Crc);
         }
-        line.send(Request::EndBlockUpload);
-        line.finish();
+        exchange.send(Request::EndBlockUpload);
+        exchange.finish();
     }
 }

@@ -5,8 +5,8 @@ use od_wire::sdo::{Request, Response, Segment};
 use od_wire::{AbortCode, Frame, Instant};
 
 use super::Channel;
-use super::block_download::Blocks;
-use super::line::{Line, parse};
+use super::block_download::BlockDownload;
+use super::exchange::{Exchange, parse};
 use super::options::Options;
 use crate::error::{Error, Expected};
 
@@ -19,7 +19,7 @@ enum State {
     /// The initiate request of a block download was sent.
     InitiateBlock,
     /// Blocks are being sent.
-    Blocks(Blocks),
+    Blocks(BlockDownload),
 }
 
 /// The download of one object: the client writes, the server receives.
@@ -40,7 +40,7 @@ enum State {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Download<D> {
-    line: Line,
+    exchange: Exchange,
     data: D,
     state: State,
     refused_block: bool,
@@ -51,13 +51,13 @@ impl<D: AsRef<[u8]>> Download<D> {
     /// [`poll_transmit`](Self::poll_transmit).
     pub fn new(channel: Channel, object: Address, data: D, options: Options) -> Self {
         let mut download = Self {
-            line: Line::new(channel, object, options),
+            exchange: Exchange::new(channel, object, options),
             data,
             state: State::InitiateBlock,
             refused_block: false,
         };
         if options.blocks(download.size()) {
-            download.line.send(Request::InitiateBlockDownload {
+            download.exchange.send(Request::InitiateBlockDownload {
                 address: object,
                 crc: true,
                 size: download.size(),
@@ -70,7 +70,7 @@ impl<D: AsRef<[u8]>> Download<D> {
 
     /// Handles a frame from the bus; frames of other channels are ignored.
     pub fn handle_frame(&mut self, _now: Instant, frame: &Frame) {
-        let Some(data) = self.line.receive(frame) else {
+        let Some(data) = self.exchange.receive(frame) else {
             return;
         };
         let response = parse(&data);
@@ -84,28 +84,30 @@ impl<D: AsRef<[u8]>> Download<D> {
                 self.segment_taken(response, toggle, end);
             }
             State::InitiateBlock => self.block_initiated(response),
-            State::Blocks(blocks) => blocks.handle(&mut self.line, self.data.as_ref(), response),
+            State::Blocks(blocks) => {
+                blocks.handle(&mut self.exchange, self.data.as_ref(), response)
+            }
         }
     }
 
     /// Gives up if the response is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
-        if self.line.is_due(now) {
-            self.line.fail(AbortCode::Timeout, Error::Silent);
+        if self.exchange.is_due(now) {
+            self.exchange.fail(AbortCode::Timeout, Error::Silent);
         }
     }
 
     /// Returns the next frame to send; the time for its response starts at `now`. In a block
     /// download there are up to 127 frames at once.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
-        if let Some(frame) = self.line.pull(now) {
+        if let Some(frame) = self.exchange.pull(now) {
             return Some(frame);
         }
         match &mut self.state {
-            State::Blocks(blocks) if self.line.outcome().is_none() => {
+            State::Blocks(blocks) if self.exchange.outcome().is_none() => {
                 let data = blocks.next_segment(self.data.as_ref())?;
-                self.line.wait(now);
-                Some(self.line.frame(data))
+                self.exchange.wait(now);
+                Some(self.exchange.frame(data))
             }
             _ => None,
         }
@@ -113,17 +115,17 @@ impl<D: AsRef<[u8]>> Download<D> {
 
     /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
-        self.line.deadline()
+        self.exchange.deadline()
     }
 
     /// Returns the result of the download; `None` while it is in progress.
     pub const fn outcome(&self) -> Option<Result<(), Error>> {
-        self.line.outcome()
+        self.exchange.outcome()
     }
 
     /// Ends the download as [`Error::Cancelled`], with an abort to the server.
     pub fn cancel(&mut self) {
-        self.line.fail(AbortCode::General, Error::Cancelled);
+        self.exchange.fail(AbortCode::General, Error::Cancelled);
     }
 
     /// Returns whether the server aborted the block download because it does not know the command.
@@ -152,8 +154,8 @@ impl<D: AsRef<[u8]>> Download<D> {
             }
             _ => None,
         };
-        self.line.send(Request::InitiateDownload {
-            address: self.line.address,
+        self.exchange.send(Request::InitiateDownload {
+            address: self.exchange.address,
             size: self.size(),
             expedited,
         });
@@ -164,16 +166,16 @@ impl<D: AsRef<[u8]>> Download<D> {
 
     fn initiated(&mut self, response: Response, expedited: bool) {
         match response {
-            Response::InitiateDownload { address } if address == self.line.address => {
+            Response::InitiateDownload { address } if address == self.exchange.address => {
                 if expedited {
-                    self.line.finish();
+                    self.exchange.finish();
                 } else {
                     self.segment(false, 0);
                 }
             }
             other => {
                 let code = AbortCode::InvalidCommand;
-                self.line.refuse(code, Expected::Download, other);
+                self.exchange.refuse(code, Expected::Download, other);
             }
         }
     }
@@ -183,7 +185,7 @@ impl<D: AsRef<[u8]>> Download<D> {
         let bytes = self.data.as_ref();
         let segment = Segment::first_of(bytes.get(start..).unwrap_or_default(), toggle);
         let end = start + usize::from(segment.len);
-        self.line.send(Request::DownloadSegment(segment));
+        self.exchange.send(Request::DownloadSegment(segment));
         self.state = State::Segment { toggle, end };
     }
 
@@ -191,15 +193,16 @@ impl<D: AsRef<[u8]>> Download<D> {
         let expected = Expected::DownloadSegment;
         match response {
             Response::DownloadSegment { toggle: answered } if answered != toggle => {
-                self.line.refuse(AbortCode::ToggleBit, expected, response);
+                self.exchange
+                    .refuse(AbortCode::ToggleBit, expected, response);
             }
             Response::DownloadSegment { .. } if end == self.data.as_ref().len() => {
-                self.line.finish();
+                self.exchange.finish();
             }
             Response::DownloadSegment { .. } => self.segment(!toggle, end),
             other => {
                 let code = AbortCode::InvalidCommand;
-                self.line.refuse(code, expected, other);
+                self.exchange.refuse(code, expected, other);
             }
         }
     }
@@ -210,18 +213,18 @@ impl<D: AsRef<[u8]>> Download<D> {
                 address,
                 crc,
                 block_size,
-            } if address == self.line.address => {
-                if let Some(blocks) = Blocks::new(&mut self.line, crc, block_size) {
+            } if address == self.exchange.address => {
+                if let Some(blocks) = BlockDownload::new(&mut self.exchange, crc, block_size) {
                     self.state = State::Blocks(blocks);
                 }
             }
-            other if self.line.is_unknown_command(other) => {
+            other if self.exchange.is_unknown_command(other) => {
                 self.refused_block = true;
                 self.initiate();
             }
             other => {
                 let code = AbortCode::InvalidCommand;
-                self.line.refuse(code, Expected::BlockDownload, other);
+                self.exchange.refuse(code, Expected::BlockDownload, other);
             }
         }
     }

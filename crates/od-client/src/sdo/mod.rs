@@ -32,7 +32,7 @@ mod block_download;
 mod block_upload;
 mod buffer;
 mod download;
-mod line;
+mod exchange;
 mod options;
 mod upload;
 

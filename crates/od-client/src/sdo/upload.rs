@@ -5,9 +5,9 @@ use od_wire::sdo::{self, Request, Response};
 use od_wire::{AbortCode, Frame, Instant};
 
 use super::Channel;
-use super::block_upload::Blocks;
+use super::block_upload::BlockUpload;
 use super::buffer::Buffer;
-use super::line::{Line, parse};
+use super::exchange::{Exchange, parse};
 use super::options::Options;
 use crate::error::{Error, Expected};
 
@@ -20,7 +20,7 @@ enum State {
     /// The initiate request of a block upload was sent.
     InitiateBlock,
     /// Segments of a block are due, or the end response.
-    Blocks(Blocks),
+    Blocks(BlockUpload),
 }
 
 /// The upload of one object: the client reads, the server sends.
@@ -39,7 +39,7 @@ enum State {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Upload<B> {
-    line: Line,
+    exchange: Exchange,
     buffer: B,
     state: State,
     refused_block: bool,
@@ -50,9 +50,9 @@ impl<B: Buffer> Upload<B> {
     /// [`poll_transmit`](Self::poll_transmit).
     pub fn new(channel: Channel, object: Address, mut buffer: B, options: Options) -> Self {
         buffer.clear();
-        let mut line = Line::new(channel, object, options);
+        let mut exchange = Exchange::new(channel, object, options);
         let state = if options.block_upload {
-            line.send(Request::InitiateBlockUpload {
+            exchange.send(Request::InitiateBlockUpload {
                 address: object,
                 crc: true,
                 block_size: options.segments(),
@@ -60,11 +60,11 @@ impl<B: Buffer> Upload<B> {
             });
             State::InitiateBlock
         } else {
-            line.send(Request::InitiateUpload { address: object });
+            exchange.send(Request::InitiateUpload { address: object });
             State::Initiate
         };
         Self {
-            line,
+            exchange,
             buffer,
             state,
             refused_block: false,
@@ -73,15 +73,15 @@ impl<B: Buffer> Upload<B> {
 
     /// Handles a frame from the bus; frames of other channels are ignored.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
-        let Some(data) = self.line.receive(frame) else {
+        let Some(data) = self.exchange.receive(frame) else {
             return;
         };
         match &mut self.state {
             State::Blocks(blocks) if blocks.wants_segments() => {
-                blocks.segment(&mut self.line, &mut self.buffer, now, &data);
+                blocks.segment(&mut self.exchange, &mut self.buffer, now, &data);
             }
             State::Blocks(blocks) => {
-                blocks.end(&mut self.line, &mut self.buffer, parse(&data));
+                blocks.end(&mut self.exchange, &mut self.buffer, parse(&data));
             }
             State::Initiate => self.initiated(parse(&data), Expected::Upload),
             State::InitiateBlock => self.block_initiated(parse(&data)),
@@ -94,33 +94,33 @@ impl<B: Buffer> Upload<B> {
 
     /// Gives up if the response is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
-        if !self.line.is_due(now) {
+        if !self.exchange.is_due(now) {
             return;
         }
         match &mut self.state {
-            State::Blocks(blocks) if blocks.heard() => blocks.confirm(&mut self.line),
-            _ => self.line.fail(AbortCode::Timeout, Error::Silent),
+            State::Blocks(blocks) if blocks.heard() => blocks.confirm(&mut self.exchange),
+            _ => self.exchange.fail(AbortCode::Timeout, Error::Silent),
         }
     }
 
     /// Returns the next frame to send; the time for its response starts at `now`.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
-        self.line.pull(now)
+        self.exchange.pull(now)
     }
 
     /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
-        self.line.deadline()
+        self.exchange.deadline()
     }
 
     /// Returns the result of the upload; `None` while it is in progress.
     pub const fn outcome(&self) -> Option<Result<(), Error>> {
-        self.line.outcome()
+        self.exchange.outcome()
     }
 
     /// Ends the upload as [`Error::Cancelled`], with an abort to the server.
     pub fn cancel(&mut self) {
-        self.line.fail(AbortCode::General, Error::Cancelled);
+        self.exchange.fail(AbortCode::General, Error::Cancelled);
     }
 
     /// Returns whether the server aborted the block upload because it does not know the command.
@@ -144,20 +144,20 @@ impl<B: Buffer> Upload<B> {
                 address,
                 size,
                 expedited,
-            } if address == self.line.address => (size, expedited),
+            } if address == self.exchange.address => (size, expedited),
             other => {
                 let code = AbortCode::InvalidCommand;
-                return self.line.refuse(code, expected, other);
+                return self.exchange.refuse(code, expected, other);
             }
         };
         if let Some(data) = expedited {
-            let len = sdo::expedited_len(size, self.line.options.type_size);
-            if self.line.keep(&mut self.buffer, &data[..len], None) {
-                self.line.finish();
+            let len = sdo::expedited_len(size, self.exchange.options.type_size);
+            if self.exchange.keep(&mut self.buffer, &data[..len], None) {
+                self.exchange.finish();
             }
             return;
         }
-        if !self.line.check_size(&self.buffer, size) {
+        if !self.exchange.check_size(&self.buffer, size) {
             return;
         }
         self.ask(false, size);
@@ -165,7 +165,7 @@ impl<B: Buffer> Upload<B> {
 
     /// Requests the segment with this toggle bit.
     fn ask(&mut self, toggle: bool, size: Option<u32>) {
-        self.line.send(Request::UploadSegment { toggle });
+        self.exchange.send(Request::UploadSegment { toggle });
         self.state = State::Segment { toggle, size };
     }
 
@@ -173,25 +173,26 @@ impl<B: Buffer> Upload<B> {
         let expected = Expected::UploadSegment;
         match response {
             Response::UploadSegment(segment) if segment.toggle != toggle => {
-                self.line.refuse(AbortCode::ToggleBit, expected, response);
+                self.exchange
+                    .refuse(AbortCode::ToggleBit, expected, response);
             }
             Response::UploadSegment(segment) if segment.len == 0 && !segment.last => {
-                self.line.fail(AbortCode::General, Error::NoProgress);
+                self.exchange.fail(AbortCode::General, Error::NoProgress);
             }
             Response::UploadSegment(segment) => {
                 let (bytes, last) = (segment.bytes(), segment.last);
-                if !self.line.keep(&mut self.buffer, bytes, size) {
+                if !self.exchange.keep(&mut self.buffer, bytes, size) {
                     return;
                 }
                 if !last {
                     self.ask(!toggle, size);
-                } else if self.line.check_complete(&self.buffer, size) {
-                    self.line.finish();
+                } else if self.exchange.check_complete(&self.buffer, size) {
+                    self.exchange.finish();
                 }
             }
             other => {
                 let code = AbortCode::InvalidCommand;
-                self.line.refuse(code, expected, other);
+                self.exchange.refuse(code, expected, other);
             }
         }
     }
@@ -199,18 +200,18 @@ impl<B: Buffer> Upload<B> {
     fn block_initiated(&mut self, response: Response) {
         match response {
             Response::InitiateBlockUpload { address, crc, size }
-                if address == self.line.address =>
+                if address == self.exchange.address =>
             {
-                if self.line.check_size(&self.buffer, size) {
-                    let block_size = self.line.options.segments();
-                    self.state = State::Blocks(Blocks::new(crc, size, block_size));
-                    self.line.send(Request::StartBlockUpload);
+                if self.exchange.check_size(&self.buffer, size) {
+                    let block_size = self.exchange.options.segments();
+                    self.state = State::Blocks(BlockUpload::new(crc, size, block_size));
+                    self.exchange.send(Request::StartBlockUpload);
                 }
             }
-            other if self.line.is_unknown_command(other) => {
+            other if self.exchange.is_unknown_command(other) => {
                 self.refused_block = true;
-                let address = self.line.address;
-                self.line.send(Request::InitiateUpload { address });
+                let address = self.exchange.address;
+                self.exchange.send(Request::InitiateUpload { address });
                 self.state = State::Initiate;
             }
             // A server may change to the other protocol.

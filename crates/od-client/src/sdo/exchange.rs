@@ -1,4 +1,4 @@
-//! The common part of both directions: the frames to send, the deadline, the result.
+//! The common part of uploads and downloads: the frame to send, the deadline, the result.
 
 use od_model::Address;
 use od_wire::sdo::{Request, Response};
@@ -21,9 +21,9 @@ pub(super) const fn parse(data: &[u8; 8]) -> Response {
     }
 }
 
-/// The client side of a channel during one transfer.
+/// Requests and responses of one transfer on its channel, as the client sees them.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
+pub(super) struct Exchange {
     channel: Channel,
     pub(super) address: Address,
     pub(super) options: Options,
@@ -35,7 +35,7 @@ pub(super) struct Line {
     is_open: bool,
 }
 
-impl Line {
+impl Exchange {
     pub(super) const fn new(channel: Channel, address: Address, options: Options) -> Self {
         Self {
             channel,
