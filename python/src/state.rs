@@ -76,9 +76,9 @@ pub(crate) struct State {
     /// It is an error if time follows the clock.
     pub(crate) strict: bool,
     /// The program was warned that time follows the clock.
-    pub(crate) warned: bool,
+    pub(crate) warned_of_clock: bool,
     /// The program was warned that a thread has long been computing.
-    pub(crate) is_warned: bool,
+    pub(crate) warned_of_computing: bool,
     /// Counts all changes of the bus.
     pub(crate) changes: u64,
     ids: u32,
@@ -103,8 +103,8 @@ impl Default for State {
             follows: None,
             pace: 1.0,
             strict: false,
-            warned: false,
-            is_warned: false,
+            warned_of_clock: false,
+            warned_of_computing: false,
             changes: 0,
             ids: 0,
             process: std::process::id(),

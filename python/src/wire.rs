@@ -192,8 +192,8 @@ impl Wire {
         if asleep.is_none() {
             state.follows = None;
         }
-        if let Some(object) = computes.filter(|_| !state.is_warned) {
-            state.is_warned = true;
+        if let Some(object) = computes.filter(|_| !state.warned_of_computing) {
+            state.warned_of_computing = true;
             drop(state);
             waits(py)?.call_method1(intern!(py, "report_long"), (object,))?;
             return Ok(runs);
@@ -203,7 +203,10 @@ impl Wire {
         };
         let now = state.now();
         state.follows = Some((Clock::now(), now));
-        let (strict, warned) = (state.strict, std::mem::replace(&mut state.warned, true));
+        let (strict, warned) = (
+            state.strict,
+            std::mem::replace(&mut state.warned_of_clock, true),
+        );
         drop(state);
         if strict || !warned {
             waits(py)?.call_method1(intern!(py, "report"), (asleep, strict))?;

@@ -9,8 +9,8 @@ use crate::types::{
     ODKIT_RESET_POWER_ON, odkit_device,
 };
 
-/// The behaviour of a device.
-pub(crate) struct Behaviour {
+/// The callbacks of a device.
+pub(crate) struct Callbacks {
     pub(crate) device: odkit_device,
     /// `None` before power-on.
     pub(crate) nested: Option<&'static Nested>,
@@ -18,7 +18,7 @@ pub(crate) struct Behaviour {
     pub(crate) own: bool,
 }
 
-impl Behaviour {
+impl Callbacks {
     /// No callbacks.
     pub(crate) const NONE: Self = Self {
         device: odkit_device::none(),
@@ -54,7 +54,7 @@ fn outcome(answer: u32) -> Result<(), AbortCode> {
 }
 
 // SAFETY of all calls below: C wrote the functions for these arguments.
-impl Application for Behaviour {
+impl Application for Callbacks {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         if let Some(call) = self.device.reset {
             // SAFETY: see above.

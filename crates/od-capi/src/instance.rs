@@ -7,7 +7,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use odkit::{BusEvent, Device, Instant, Node, NodeId, nmt};
 
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_BUSY, ODKIT_NULL, ODKIT_OK, ODKIT_STATE};
-use crate::application::Behaviour;
+use crate::application::Callbacks;
 use crate::clock::{self, Clock};
 use crate::frame::{from_c, to_c};
 use crate::memory::Memory;
@@ -47,11 +47,11 @@ pub struct Instance<D: Device> {
 }
 
 /// A node with the callbacks and the memory from C.
-pub(crate) type Slave<D> = Node<D, Behaviour, Memory>;
+pub(crate) type CNode<D> = Node<D, Callbacks, Memory>;
 
 /// Before the first power-on it is all zeros, so that it takes no flash.
 pub(crate) struct State<D: Device> {
-    node: Slave<D>,
+    node: CNode<D>,
     clock: Clock,
 }
 
@@ -83,7 +83,7 @@ impl<D: Device> Instance<D> {
             busy: AtomicBool::new(false),
             nested: Nested::new(),
             state: UnsafeCell::new(State {
-                node: Node::new(device, NodeId::ONE, Behaviour::NONE, Memory::NONE),
+                node: Node::new(device, NodeId::ONE, Callbacks::NONE, Memory::NONE),
                 clock: Clock::new(),
             }),
         }
@@ -113,7 +113,7 @@ impl<D: Device> Instance<D> {
     /// Gives the node and its clock to one call; `ODKIT_STATE` without power.
     pub(crate) fn open<R>(
         &self,
-        call: impl FnOnce(&mut Slave<D>, &mut Clock) -> Result<R, u32>,
+        call: impl FnOnce(&mut CNode<D>, &mut Clock) -> Result<R, u32>,
     ) -> Result<R, u32> {
         self.enter(|State { node, clock }| {
             if node.is_powered() {
@@ -211,7 +211,7 @@ impl<D: Device> Instance<D> {
     }
 
     /// Calls `handle` with the node at this time.
-    fn at(&self, now_us: u32, handle: impl FnOnce(&mut Slave<D>, Instant)) -> u32 {
+    fn at(&self, now_us: u32, handle: impl FnOnce(&mut CNode<D>, Instant)) -> u32 {
         answer(self.open(|node, clock| {
             handle(node, clock.at(now_us));
             Ok(())

@@ -5,7 +5,7 @@ use odkit::{DataType, Entry, Kind, Store};
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_TYPE};
 
 /// Bytes of a value, and how many of them are valid.
-pub(crate) type Wire = ([u8; 8], usize);
+pub(crate) type ValueBytes = ([u8; 8], usize);
 
 /// Number of bits of an integer type, if it has at most `most`.
 fn bits(data_type: DataType, is_signed: bool, most: u8) -> Result<u32, u32> {
@@ -39,7 +39,7 @@ pub(crate) fn single(store: &Store<'_>, entry: &Entry) -> Result<f32, u32> {
 }
 
 /// The bytes of an unsigned value of up to `most` bits.
-pub(crate) fn from_unsigned(data_type: DataType, value: u64, most: u8) -> Result<Wire, u32> {
+pub(crate) fn from_unsigned(data_type: DataType, value: u64, most: u8) -> Result<ValueBytes, u32> {
     let unused = 64 - bits(data_type, false, most)?;
     if value << unused >> unused != value {
         return Err(ODKIT_ARGUMENT);
@@ -48,7 +48,7 @@ pub(crate) fn from_unsigned(data_type: DataType, value: u64, most: u8) -> Result
 }
 
 /// The bytes of a signed value of up to `most` bits.
-pub(crate) fn from_signed(data_type: DataType, value: i64, most: u8) -> Result<Wire, u32> {
+pub(crate) fn from_signed(data_type: DataType, value: i64, most: u8) -> Result<ValueBytes, u32> {
     let unused = 64 - bits(data_type, true, most)?;
     if value << unused >> unused != value {
         return Err(ODKIT_ARGUMENT);
@@ -57,7 +57,7 @@ pub(crate) fn from_signed(data_type: DataType, value: i64, most: u8) -> Result<W
 }
 
 /// The bytes of a REAL32.
-pub(crate) fn from_single(data_type: DataType, value: f32) -> Result<Wire, u32> {
+pub(crate) fn from_single(data_type: DataType, value: f32) -> Result<ValueBytes, u32> {
     match data_type {
         DataType::Real32 => Ok((u64::from(value.to_bits()).to_le_bytes(), 4)),
         _ => Err(ODKIT_TYPE),

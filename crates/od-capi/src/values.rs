@@ -8,7 +8,7 @@ use odkit::{AbortCode, Address, Device, Emcy, Entry, Store, nmt};
 
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE};
 use crate::instance::{Instance, answer, put};
-use crate::number::{self, Wire};
+use crate::number::{self, ValueBytes};
 
 fn find(store: &Store<'_>, address: Address) -> Result<Entry, u32> {
     let found = store.dictionary().find(address);
@@ -222,10 +222,10 @@ impl<D: Device> Instance<D> {
         &self,
         now_us: u32,
         address: Address,
-        bytes: impl Fn(&Entry) -> Result<Wire, u32>,
+        bytes: impl Fn(&Entry) -> Result<ValueBytes, u32>,
     ) -> u32 {
-        let wire = self.look(|store| bytes(&find(store, address)?));
-        answer(wire.and_then(|(bytes, len)| {
+        let value = self.look(|store| bytes(&find(store, address)?));
+        answer(value.and_then(|(bytes, len)| {
             let bytes = bytes.get(..len).unwrap_or(&bytes);
             self.write(now_us, address, bytes)
         }))
