@@ -1,7 +1,7 @@
 //! Functions without a bench: typed frames, values as bytes and back,
 //! services, and transfers of several frames.
 
-use od_model::{Address, DataType};
+use od_model::DataType;
 use od_runtime::NodeId;
 use od_sim::line::bits::{Bit, Part, bits};
 use od_sim::script::{LineContext, frame_of, typed};
@@ -92,9 +92,8 @@ pub fn tags(frames: &[u8]) -> Vec<u32> {
         let first = tag.map_or(0, |tag| {
             u32::from(tag.tag) | u32::from(tag.node) << TAG_NODE
         });
-        let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
         let first = first | u32::from(object.is_some()) << TAG_OBJECT;
-        [first, object.map_or(0, key)] as [u32; TAG_LEN]
+        [first, object.map_or(0, packed::object)] as [u32; TAG_LEN]
     };
     frames.chunks_exact(packed::LEN).flat_map(of).collect()
 }

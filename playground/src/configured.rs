@@ -38,7 +38,9 @@ impl Bus {
         let mut description = od_eds::load(&text).description;
         self.journal
             .rig
-            .with(device, |device, _| device.configure(&mut description))
+            .with(device, |device, _| {
+                device.write_configuration(&mut description)
+            })
             .ok_or_else(|| JsError::new("no device has this number"))?;
         Ok(od_eds::write(&description))
     }

@@ -113,9 +113,7 @@ impl Bus {
             .and_then(|frame| words::layout(self.journal.rig.bus.devices(), &frame))
             .unwrap_or_default()
             .into_iter()
-            .flat_map(|(at, first, bits)| {
-                [u32::from(at.index) << 8 | u32::from(at.sub), first, bits]
-            })
+            .flat_map(|(address, first, bits)| [packed::object(address), first, bits])
             .collect()
     }
 

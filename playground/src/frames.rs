@@ -1,6 +1,5 @@
 //! Frames in words.
 
-use od_model::Address;
 use od_sim::words;
 use od_sim::words::{Service, Words};
 use wasm_bindgen::prelude::*;
@@ -37,13 +36,12 @@ impl Bus {
     pub fn fields(&self, frame: &[u8]) -> Vec<JsValue> {
         let known = packed::frame(frame).filter(|_| !packed::is_disturbed(frame));
         let fields = known.map(|frame| words::fields(self.journal.rig.bus.devices(), &frame));
-        let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
         let field = |one: words::Field| Field {
             from: one.from,
             to: one.to,
             name: one.name,
             value: one.value,
-            object: one.object.map(key),
+            object: one.object.map(packed::object),
         };
         let fields = fields.unwrap_or_default().into_iter();
         fields.map(|one| field(one).value()).collect()

@@ -217,7 +217,7 @@ pub(crate) fn error(error: Error) -> JsError {
 }
 
 pub(crate) fn read(input: &JsValue) -> Result<Input, Error> {
-    let fields = Object::of(input).ok_or(Error::Cut)?;
+    let fields = Object::of(input).ok_or(Error::InvalidField)?;
     let Value::Text(op) = fields.get("op") else {
         return Err(Error::Newer);
     };
@@ -225,9 +225,9 @@ pub(crate) fn read(input: &JsValue) -> Result<Input, Error> {
 }
 
 fn entry(one: &JsValue) -> Result<journal::Entry, Error> {
-    let fields = Object::of(one).ok_or(Error::Cut)?;
+    let fields = Object::of(one).ok_or(Error::InvalidField)?;
     let Value::Number(at) = fields.get("at") else {
-        return Err(Error::Cut);
+        return Err(Error::InvalidField);
     };
     let at = Instant::from_micros(at.max(0.0) as u64);
     let input = read(&fields.field("input"))?;

@@ -5,7 +5,7 @@ use od_sim::VirtualDevice;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
-use crate::values;
+use crate::{packed, values};
 
 #[wasm_bindgen]
 impl Bus {
@@ -34,8 +34,7 @@ impl Bus {
             let of = |address: Address| device.is_unsaved(&image, address);
             let wanted = |address: &Address| of(*address) == Some(!saved);
             let addresses = dictionary.entries().iter().map(|entry| entry.address);
-            let key = |address: Address| u32::from(address.index) << 8 | u32::from(address.sub);
-            addresses.filter(wanted).map(key).collect()
+            addresses.filter(wanted).map(packed::object).collect()
         };
         self.journal
             .rig

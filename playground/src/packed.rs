@@ -1,4 +1,4 @@
-//! Packed frames: 24 bytes each, little endian, so that thousands are passed in one call.
+//! Packed frames: 24 bytes each, little endian, so that thousands are passed in one call; and objects as one number.
 //!
 //! | offset | what |
 //! |---|---|
@@ -14,6 +14,7 @@
 //! bit rate, 3 reflections, 4 another frame with the same identifier, 5 short circuit), 1 if its sender went bus-off, the sender's
 //! transmit error counter in two bytes, and the number of failed attempts in four.
 
+use od_model::Address;
 use od_runtime::{Frame, Instant};
 use od_sim::journal;
 use od_sim::line::FrameError;
@@ -106,6 +107,11 @@ pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_sim::logs::Record) {
     if let Some(flags) = batch.get_mut(start + at::FLAGS) {
         *flags = *flags & !OWN | disturbed | if line.sent { OWN } else { 0 };
     }
+}
+
+/// An object as one number: `index * 256 + sub`.
+pub(crate) fn object(address: Address) -> u32 {
+    u32::from(address.index) << 8 | u32::from(address.sub)
 }
 
 fn flags(packed: &[u8]) -> u8 {

@@ -11,7 +11,7 @@ use crate::device::VirtualDevice;
 impl VirtualDevice {
     /// Writes node ID, bit rate and the values that are not the factory's into the description
     /// that this device was made of. Commands, logs and measured values are not part of it.
-    pub fn configure(&mut self, description: &mut Description) {
+    pub fn write_configuration(&mut self, description: &mut Description) {
         let node_id = self.node_id();
         description.commission("NodeID", &node_id.raw().to_string());
         if let Some(rate) = self.bit_rate() {

@@ -12,7 +12,7 @@
 //! | `file_parts`, `streams`, `clock`, `programs` | parts that only a device of a file has: long values, TIME, program download |
 //! | `services`, `left_out` | services of an EDS; the defaults that it leaves out |
 //! | `pdos`, `configured` | its PDOs and its configuration as they are now |
-//! | `notice`, `size` | texts: events of the storage, numbers of bytes |
+//! | `notice` | events of the storage in words |
 
 pub(crate) mod application;
 #[cfg(feature = "eds")]
@@ -41,7 +41,6 @@ pub(crate) mod programs;
 pub(crate) mod role;
 pub(crate) mod saved;
 pub(crate) mod services;
-pub(crate) mod size;
 pub(crate) mod source;
 #[cfg(feature = "eds")]
 pub(crate) mod streams;

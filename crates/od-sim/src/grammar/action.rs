@@ -28,7 +28,7 @@ pub enum Action {
     /// An action that a live bench supports, too.
     Deed(Deed),
     /// Puts a device on the bus.
-    Device(Added),
+    Device(NewDevice),
     /// A whole SDO upload.
     Read {
         /// Address or name.
@@ -83,7 +83,7 @@ pub(crate) struct Choice {
 
 /// A device that a line puts on the bus.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Added {
+pub struct NewDevice {
     /// Name of a built-in device or of a file; `None`: the default device of scripts.
     pub(crate) name: Option<String>,
     /// Node ID of each channel.

@@ -3,7 +3,7 @@
 //!
 //! | file | what it reads |
 //! |---|---|
-//! | `tokens` | the words of a line, durations, numbers |
+//! | `tokens`, `size` | the words of a line, durations, numbers; numbers of bytes with a unit |
 //! | `verbs` | the table of verbs, one row per first word; `world` has those outside the bus |
 //! | `line` | a complete line: its time, then a verb or a frame |
 //! | `draw` | the numbers that a `random` line draws |
@@ -24,6 +24,7 @@ pub(crate) mod named_frame;
 pub mod pattern;
 pub mod problem;
 pub(crate) mod shown;
+pub(crate) mod size;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tokens;

@@ -5,11 +5,11 @@ use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, NodeId};
 
-use super::action::{Action, Added};
+use super::action::{Action, NewDevice};
 use super::deed::{Deed, LineChange, ShaftChange};
 use super::problem::Problem;
+use super::size;
 use super::tokens::{Tokens, fault_name};
-use crate::device::size;
 use crate::line::cable::{self, Property};
 
 pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
@@ -25,9 +25,9 @@ pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
             "write `device \"my device.eds\"`",
         ));
     }
-    let mut added = Added {
+    let mut added = NewDevice {
         name: Some(name.to_owned()),
-        ..Added::default()
+        ..NewDevice::default()
     };
     while !tokens.is_empty() {
         if tokens.take("node") {

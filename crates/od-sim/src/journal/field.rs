@@ -36,7 +36,7 @@ pub enum Value {
 #[non_exhaustive]
 pub enum Error {
     /// A field is missing or has an invalid value.
-    Cut,
+    InvalidField,
     /// It was written by a later version.
     Newer,
     /// The run has too many devices.
@@ -51,7 +51,7 @@ impl Error {
     /// A word for programs: `cut`, `newer`, `devices`, `time`, `frames`.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Cut => "cut",
+            Self::InvalidField => "cut",
             Self::Newer => "newer",
             Self::Devices => "devices",
             Self::Time => "time",
@@ -63,7 +63,9 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Cut => "a field of the input is missing, or has a value that is not allowed",
+            Self::InvalidField => {
+                "a field of the input is missing, or has a value that is not allowed"
+            }
             Self::Newer => "a later version wrote the input",
             Self::Devices => "the run has too many devices",
             Self::Time => "the run takes too long",
@@ -181,7 +183,7 @@ impl Field<'_> {
             {
                 *to = all;
             }
-            _ => return Err(Error::Cut),
+            _ => return Err(Error::InvalidField),
         }
         Ok(())
     }
@@ -216,20 +218,20 @@ pub(super) fn whole(value: &Value, high: u32) -> Result<u32, Error> {
         Value::Number(value) if value.fract() == 0.0 && (0.0..=high.into()).contains(&value) => {
             Ok(value as u32)
         }
-        _ => Err(Error::Cut),
+        _ => Err(Error::InvalidField),
     }
 }
 
 pub(super) fn flag(value: &Value) -> Result<bool, Error> {
     match *value {
         Value::Flag(value) => Ok(value),
-        _ => Err(Error::Cut),
+        _ => Err(Error::InvalidField),
     }
 }
 
 pub(super) fn text(value: Value) -> Result<String, Error> {
     match value {
         Value::Text(value) if value.len() <= LONGEST => Ok(value),
-        _ => Err(Error::Cut),
+        _ => Err(Error::InvalidField),
     }
 }

@@ -107,7 +107,7 @@ impl Journal {
             None => Vec::new(),
         });
         let past = self.past();
-        inputs.extend(rhythms(&past));
+        inputs.extend(cyclic_frames(&past));
         let line = &self.rig.bus.line;
         inputs.push(Input::Line {
             real: line.is_real(),
@@ -242,8 +242,8 @@ fn is_channel(device: &AddedDevice) -> bool {
     rest.is_some_and(|rest| rest.starts_with('.'))
 }
 
-/// Periodic frames, in the order in which they began.
-fn rhythms(past: &[&Input]) -> Vec<Input> {
+/// Cyclic frames, in the order in which they began.
+fn cyclic_frames(past: &[&Input]) -> Vec<Input> {
     let mut latest: Vec<(u32, &Input)> = Vec::new();
     for input in past {
         let Input::Repeat { key, .. } = input else {

@@ -177,7 +177,11 @@ fn numbers_have_a_range() {
         (0.0, 1e300),
         (0.0, f64::NAN),
     ] {
-        assert_eq!(turn(node, turns), Err(Error::Cut), "{node} {turns}");
+        assert_eq!(
+            turn(node, turns),
+            Err(Error::InvalidField),
+            "{node} {turns}"
+        );
     }
     assert_eq!(
         Input::read("explode", &Record::default()),

@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rhythm_keeps_its_beat_until_it_is_ended() {
+    fn a_cyclic_frame_keeps_its_interval_until_it_is_ended() {
         let mut clockwork = Clockwork::default();
         let sync = Frame::standard(0x80, &[]);
         clockwork.repeat(7, sync, 1000, Instant::from_micros(500));

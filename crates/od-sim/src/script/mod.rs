@@ -33,7 +33,7 @@ pub use read::{Reader, Script, Statement};
 pub use run::{run, run_on};
 
 pub use crate::bench::Bench;
-pub use crate::grammar::action::{Action, Added, Draw, Expect, Outcome, Timing, When};
+pub use crate::grammar::action::{Action, Draw, Expect, NewDevice, Outcome, Timing, When};
 pub use crate::grammar::deed::{Deed, LineChange, ShaftChange};
 pub use crate::grammar::frames::Frames;
 pub use crate::grammar::named_frame::{NamedFrame, Write, resolve};

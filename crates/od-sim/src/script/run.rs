@@ -14,7 +14,7 @@ use crate::bench::Bench;
 use crate::bus::{Sent, UNTIL_QUIET};
 use crate::chance::Chance;
 use crate::device::VirtualDevice;
-use crate::grammar::action::{Action, Added, Draw, When};
+use crate::grammar::action::{Action, Draw, NewDevice, When};
 use crate::grammar::deed::{Deed, LineChange};
 use crate::grammar::draw::drawn;
 use crate::grammar::line::line;
@@ -181,7 +181,7 @@ impl Runner<'_> {
             _ => false,
         };
         if self.bench.bus.devices().is_empty() && !is_before_devices {
-            self.add(&Added::default())?;
+            self.add(&NewDevice::default())?;
         }
         match statement.when {
             When::Next => {}
@@ -265,7 +265,7 @@ impl Runner<'_> {
     }
 
     /// Puts a device with all its channels on the bus.
-    fn add(&mut self, wanted: &Added) -> Result<()> {
+    fn add(&mut self, wanted: &NewDevice) -> Result<()> {
         let beside = match &wanted.beside {
             Some(label) => Some(self.bench.named(label).or_else(impossible)?),
             None => None,

@@ -1,4 +1,4 @@
-//! Describes events of a device in words, for the terminal.
+//! Prints events of the devices in words on the terminal.
 
 use od_runtime::Event;
 
@@ -7,7 +7,7 @@ use crate::bench::Bench;
 use crate::device::notice;
 
 /// Prints the `wanted` events of all devices since the last call.
-pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
+pub(super) fn print(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
     let several = bench.bus.devices().len() > 1;
     for number in 0..bench.bus.devices().len() {
         let events = bench.bus.with(number, |device, _| {

@@ -8,8 +8,8 @@ use od_runtime::NodeId;
 use super::control::address::ControlAddress;
 use super::error::Error;
 use super::fleet::Maker;
+use super::hint;
 use super::links::opened::{Opened, Protocol};
-use super::once;
 use super::options::Options;
 use super::terminal::{note, print as print_line};
 use crate::bus::Bus;
@@ -56,7 +56,7 @@ pub(super) fn print(
         );
     }
     if let (Some(device), Some(first)) = (bus.devices().first(), first) {
-        if once::is_due(to_error) {
+        if hint::is_due(to_error) {
             for link in links {
                 help(&mut text, link, first, device, args.bitrate);
             }

@@ -10,6 +10,7 @@ use od_runtime::{Frame, Instant};
 
 use super::clients::Clients;
 use super::control::{Control, lost};
+use super::device_events;
 use super::error::Error;
 use super::fleet::PlacedDevice;
 use super::links::LINKS;
@@ -19,7 +20,6 @@ use super::log::Log;
 use super::pace::{LATE, Pace};
 use super::stats::Stats;
 use super::terminal::{news, note};
-use super::told::events;
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
@@ -87,7 +87,7 @@ impl Live {
             links: 0,
             lost: None,
         };
-        events(&mut live.bench, |event| notice::of_storage(event).is_some());
+        device_events::print(&mut live.bench, |event| notice::of_storage(event).is_some());
         live
     }
 
@@ -195,7 +195,7 @@ impl Live {
         if !self.bench.bus.is_sending(0) {
             self.sending.clear();
         }
-        events(&mut self.bench, |_| true);
+        device_events::print(&mut self.bench, |_| true);
     }
 
     /// The client that sent a frame of a real line. The line keeps the order, so the frames before it are lost.

@@ -8,7 +8,7 @@ use od_runtime::NodeId;
 use super::control::address::ControlAddress;
 use super::links::{Link, web_socket};
 use super::log;
-use crate::device::size;
+use crate::grammar::size;
 
 /// Options for running devices.
 #[derive(Clone, PartialEq, Debug)]
