@@ -120,6 +120,64 @@ pub(super) fn clocks(dut: &mut Dut<'_>) -> Checked {
     at_least_one(any, "the EDS has neither 2120h nor 2A00h")
 }
 
+/// Operating times in seconds go on like a clock. The number of operating cycles counts each power-on, but no NMT reset, and
+/// the time since boot-up begins again.
+pub(super) fn records(dut: &mut Dut<'_>) -> Checked {
+    const SINCE_BOOT_UP: Address = Address::new(0x2A00, 1);
+    const CYCLES: Address = Address::new(0x2A01, 0);
+    is_of(dut, &[GX, EN])?;
+    let is_there = |dut: &Dut<'_>, at: Address| dut.eds.entry(at.index, at.sub).is_some();
+    let mut times = vec![
+        SINCE_BOOT_UP,
+        Address::new(0x2A00, 2),
+        Address::new(0x2201, 2),
+    ];
+    times.retain(|at| is_there(dut, *at));
+    let mut before = Vec::new();
+    for at in &times {
+        before.push(dut.number(at.index, at.sub)?);
+    }
+    dut.wait(5_000_000)?;
+    for (at, before) in times.iter().zip(before) {
+        let is = dut.number(at.index, at.sub)?;
+        let done = ensure(
+            is.wrapping_sub(before).abs_diff(5) <= 1,
+            format!("5 s more in {at} after 5 s, 1 s off at most"),
+            format!("{is} was read after {before}"),
+        );
+        dut.fault(done)?;
+    }
+    if !is_there(dut, CYCLES) {
+        return at_least_one(!times.is_empty(), "the EDS has none of these records");
+    }
+    let cycles = dut.number(CYCLES.index, 0)?;
+    dut.reset(Command::ResetNode)?;
+    let mut wanted = vec![(cycles, "NMT reset node")];
+    if dut.rig.has_power() {
+        wanted.push((cycles + 1, "the power was off"));
+    }
+    for (wanted, after) in wanted {
+        if wanted != cycles {
+            dut.power_cycle()?;
+            let is = dut.number(SINCE_BOOT_UP.index, SINCE_BOOT_UP.sub)?;
+            let done = ensure(
+                is <= 3,
+                format!("3 s at most in {SINCE_BOOT_UP} after {after}"),
+                format!("{is} was read"),
+            );
+            dut.fault(done)?;
+        }
+        let is = dut.number(CYCLES.index, 0)?;
+        let done = ensure(
+            is == wanted,
+            format!("{wanted} in {CYCLES} after {after}"),
+            format!("{is} was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
 /// Numbers of a bit rate, or of the source of a speed or an acceleration, that the manual of a product does not have.
 pub(super) fn choices(dut: &mut Dut<'_>) -> Checked {
     const RATE: Address = Address::new(0x2100, 0);

@@ -848,6 +848,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "Manual 000, object 2300h: Customer data keep what was written.").applies("cia406, 2300h:01 rw, 1018h:02"),
         check("encoder-clocks", maker::clocks,
             "Manual 003, object 2A00h: The time since boot-up goes on, and so does a time stamp of the position.").applies("cia406, 1018h:02"),
+        check("encoder-records", maker::records,
+            "Manuals 000 and 003, objects 2201h, 2A00h and 2A01h: Operating times go on like a clock, and the operating cycles count each power-on, but no NMT reset.").applies("cia406, 1018h:02").needs("reset"),
         check("encoder-serial", encoder::serial,
             "CiA 406 650Bh: 650Bh is the serial number of 1018h.").applies("cia406, 650Bh, 1018h:04"),
     ]),
