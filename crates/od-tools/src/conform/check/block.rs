@@ -161,9 +161,9 @@ fn same(dut: &mut Dut<'_>, how: How) -> Checked {
     dut.still_serves()
 }
 
-/// Fails unless a block upload without a checksum has these bytes.
+/// Fails unless a block upload with a checksum has these bytes.
 pub(super) fn has(dut: &mut Dut<'_>, address: Address, bytes: &[u8]) -> Checked {
-    carries(dut, address, bytes, PLAIN)
+    carries(dut, address, bytes, How { crc: true, ..PLAIN })
 }
 
 /// Fails unless a block upload has these bytes.
@@ -247,7 +247,9 @@ pub(super) fn upload_short(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn upload_size_128(dut: &mut Dut<'_>) -> Checked {
     let (address, _) = long_value(dut)?;
     // A node without block transfers refuses the right sizes, too.
-    read(dut, address, PLAIN)?;
+    begin(dut, address, PLAIN)?;
+    let close = request(0x80, address, [0, 0, 0, 8]);
+    dut.send(Frame::full(dut.node.plus(0x600), close))?;
     for size in [128, 0] {
         let answer = dut.answer(request(0xA0, address, [size, 0, 0, 0]))?;
         is_abort(&answer, &[InvalidBlockSize])?;
@@ -261,7 +263,7 @@ const END: u8 = 0xA1;
 /// A request that does not belong to this part of a block upload gets an abort or nothing, and the next upload is right.
 pub(super) fn upload_out_of_place(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
-    read(dut, address, PLAIN)?;
+    let with_crc = How { crc: true, ..PLAIN };
     let count = bytes.len().div_ceil(7).min(127) as u8;
     let confirm = [0xA2, count, 127];
     // Before the start of the upload, after its segments, and after the last confirmation.
@@ -306,7 +308,7 @@ pub(super) fn upload_out_of_place(dut: &mut Dut<'_>) -> Checked {
             dut.send(Frame::full(dut.node.plus(0x600), close))?;
             dut.settle(10_000)?;
         }
-        carries(dut, address, &bytes, PLAIN)?;
+        carries(dut, address, &bytes, with_crc)?;
     }
     Ok(())
 }

@@ -474,17 +474,18 @@ pub(super) fn leave_silent(dut: &mut Dut<'_>) -> Checked {
     let other = if own == 100 { 101 } else { 100 };
     for node_id in [None, Some(own), Some(other)] {
         dut.nmt(Command::EnterPreOperational)?;
-        configured(dut)?;
+        let all = configured(dut)?;
         if let Some(node_id) = node_id {
             ask(dut, Request::ConfigureNodeId { node_id })?;
         }
         let done = leaves(dut);
         dut.fault(done)?;
+        // The node may have the other node ID now, so it is selected by its LSS address.
+        select(dut, all)?;
+        ask(dut, Request::ConfigureNodeId { node_id: own })?;
+        waiting(dut)?;
     }
-    dut.nmt(Command::EnterPreOperational)?;
-    with(dut, |dut, _| {
-        ask(dut, Request::ConfigureNodeId { node_id: own }).map(drop)
-    })
+    Ok(())
 }
 
 fn leaves(dut: &mut Dut<'_>) -> Checked {

@@ -521,7 +521,14 @@ pub(super) fn kinds(dut: &mut Dut<'_>) -> Checked<Vec<(&'static str, Act)>> {
         ("an upload", Box::new(|dut| dut.still_serves())),
         (
             "a refused upload",
-            Box::new(move |dut| dut.refuses(request(0x40, missing, [0; 4]), &[NoSubIndex])),
+            Box::new(move |dut| {
+                let answer = dut.answer(request(0x40, missing, [0; 4]))?;
+                ensure(
+                    abort_of(&answer).is_some(),
+                    format!("an abort for {missing}"),
+                    format!("{} came", values::hex(&answer)),
+                )
+            }),
         ),
     ];
     if let Some((address, bytes)) = optional(segments::short_value(dut))? {
@@ -569,10 +576,14 @@ pub(super) fn kinds(dut: &mut Dut<'_>) -> Checked<Vec<(&'static str, Act)>> {
         };
         all.push(("a download by block", Box::new(write)));
     }
+    // A kind that the node does not have, or that is wrong alone, is the matter of another case.
     let mut here = Vec::new();
     for (name, act) in all {
-        let done = optional(act(dut)).map(|done| here.extend(done.map(|()| (name, act))));
-        dut.fault(done)?;
+        match dut.still_serves().and_then(|()| act(dut)) {
+            Ok(()) => here.push((name, act)),
+            Err(End::Lost(fault)) => return Err(End::Lost(fault)),
+            Err(_) => {}
+        }
     }
     Ok(here)
 }
