@@ -117,12 +117,22 @@ fn text(scan: &Scan, rate: Option<u16>, names: &Names) -> String {
             lines.push(format!("          fits {known}"));
         }
         if !one.conflict.is_empty() {
+            let is_one = one.conflict.iter().all(|serial| *serial == one.conflict[0]);
             let serials: Vec<String> = one.conflict.iter().map(u32::to_string).collect();
-            lines.push(format!(
-                "          conflict: {} answer with this node ID (serial numbers {})",
-                plural(serials.len(), "node"),
-                serials.join(", ")
-            ));
+            lines.push(if is_one {
+                format!(
+                    "          conflict: {} to one request, with the same serial number {}: the node responds twice, or two \
+                     devices have this node ID and no serial number of their own",
+                    plural(serials.len(), "response"),
+                    serials[0]
+                )
+            } else {
+                format!(
+                    "          conflict: {} answer with this node ID (serial numbers {})",
+                    plural(serials.len(), "node"),
+                    serials.join(", ")
+                )
+            });
         }
     }
     if scan.has_unconfigured {
@@ -169,6 +179,8 @@ fn title(one: &FoundNode) -> String {
         parts.push("its SDO responses do not belong to the requests".into());
     } else if !one.answers {
         parts.push("does not respond to SDO requests".into());
+    } else if one.device_type.is_none() && parts.is_empty() {
+        parts.push("1000h cannot be read; `odkit get` shows the reason".into());
     }
     parts.join(", ")
 }

@@ -39,6 +39,13 @@ pub enum Error {
         /// Number of bytes up to the end, or to the point where the client gave up.
         received: usize,
     },
+    /// A response is too short for the value that it says it has.
+    Short {
+        /// Number of bytes that the response needs.
+        needed: u8,
+        /// Number of its bytes.
+        received: u8,
+    },
     /// The checksum of a block transfer does not match.
     Crc,
     /// The server sends segments without data, or repeats a block without end.
@@ -86,6 +93,10 @@ impl fmt::Display for Error {
             } => write!(
                 f,
                 "the SDO server announces a length of {announced} and sends {received}"
+            ),
+            Self::Short { needed, received } => write!(
+                f,
+                "the length of a response is {received}, and its value needs {needed}; an SDO message has 8 bytes"
             ),
             Self::Crc => f.write_str("the checksum of the block transfer does not match"),
             Self::NoProgress => f.write_str("the SDO server does not continue the transfer"),

@@ -21,6 +21,20 @@ pub(super) const fn parse(data: &[u8; 8]) -> Response {
     }
 }
 
+/// The number of bytes that the value in a response to an upload needs; the missing ones of a shorter frame are not 0.
+const fn needed(data: &[u8; 8]) -> u8 {
+    match data[0] {
+        // A segment.
+        command @ 0x00..=0x1F => 8 - (command >> 1 & 7),
+        // The value, or its size.
+        0x41 | 0x45 | 0x49 | 0x4D => 8,
+        command @ 0x40..=0x5F if command & 3 == 3 => 8 - (command >> 2 & 3),
+        // The value without a size has one byte at least.
+        command @ 0x40..=0x5F if command & 2 != 0 => 5,
+        _ => 1,
+    }
+}
+
 /// Requests and responses of one transfer on its channel, as the client sees them.
 #[derive(Clone, Debug)]
 pub(super) struct Exchange {
@@ -98,6 +112,16 @@ impl Exchange {
         let is_ours = frame.id() == self.channel.response && !frame.data().is_empty();
         let is_due = self.out.is_none() || data[0] == ABORT;
         (self.outcome.is_none() && self.is_open && is_ours && is_due).then_some(data)
+    }
+
+    /// Fails if a response to an upload is too short for its value.
+    pub(super) fn check_length(&mut self, frame: &Frame) -> bool {
+        let (needed, received) = (needed(frame.bytes()), frame.dlc());
+        let is_whole = received >= needed;
+        if !is_whole {
+            self.fail(AbortCode::Length, Error::Short { needed, received });
+        }
+        is_whole
     }
 
     pub(super) fn finish(&mut self) {

@@ -76,6 +76,9 @@ impl<B: Buffer> Upload<B> {
         let Some(data) = self.exchange.receive(frame) else {
             return;
         };
+        if !matches!(self.state, State::Blocks(_)) && !self.exchange.check_length(frame) {
+            return;
+        }
         match &mut self.state {
             State::Blocks(blocks) if blocks.wants_segments() => {
                 blocks.segment(&mut self.exchange, &mut self.buffer, now, &data);

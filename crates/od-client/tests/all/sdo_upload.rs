@@ -260,6 +260,39 @@ fn frames_of_other_nodes_are_ignored() {
     assert_eq!((upload.outcome(), upload.bytes()), (Some(Ok(())), &[9][..]));
 }
 
+/// The bytes that a short frame does not have are not 0. One that has the whole value is accepted, as from old devices.
+#[test]
+fn a_response_that_is_too_short_for_its_value_ends_the_upload() {
+    for (data, needed) in [
+        (&[0x43, 0x03, 0x20, 0, 0xD2][..], 8),
+        (&[0x4B, 0x03, 0x20, 0, 0xD2], 6),
+        (&[0x42, 0x03, 0x20, 0], 5),
+        (&[0x41, 0x03, 0x20, 0, 20], 8),
+        (&[0x43], 8),
+    ] {
+        let mut upload = asked();
+        let _ = upload.out(at(0));
+        let id = od_client::CanId::standard(0x581);
+        upload.handle_frame(at(0), &od_client::Frame::new(id, data).expect("8 bytes"));
+        let received = data.len() as u8;
+        assert_eq!(
+            upload.outcome(),
+            Some(Err(Error::Short { needed, received }))
+        );
+        assert_eq!(upload.out(at(0)), ["601#8003200010000706"]);
+    }
+    let mut segment = in_segments();
+    segment.handle_frame(at(0), &od_client::Frame::standard(0x581, &[0, 1, 2, 3]));
+    let error = Error::Short {
+        needed: 8,
+        received: 4,
+    };
+    assert_eq!(segment.outcome(), Some(Err(error)));
+    let mut last = in_segments();
+    last.handle_frame(at(0), &od_client::Frame::standard(0x581, &[0x0B, 7, 8]));
+    assert_ne!(last.outcome(), Some(Err(error)));
+}
+
 #[test]
 fn while_a_request_waits_only_an_abort_ends_the_transfer() {
     let mut upload = asked();

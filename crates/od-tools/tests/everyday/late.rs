@@ -86,6 +86,46 @@ fn a_scan_of_slow_nodes_neither_misses_a_node_nor_sees_two() {
     }
 }
 
+/// A link on which each SDO response is another frame.
+struct Instead<L>(L, fn(Frame) -> Frame);
+
+impl<L: Link> Link for Instead<L> {
+    fn now(&self) -> Instant {
+        self.0.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.0.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        let mut heard = self.0.receive(until)?;
+        if let Some(heard) = &mut heard
+            && heard.frame.id().raw() == 0x581
+        {
+            heard.frame = (self.1)(heard.frame);
+        }
+        Ok(heard)
+    }
+}
+
+#[test]
+fn a_response_that_is_too_short_for_its_value_is_named() {
+    let read = |instead| {
+        let mut bus = bus(&[("gxmm", 1)]);
+        let mut master = Master::new(Instead(OnBench(&mut bus), instead), NodeId::ONE);
+        let fault = master
+            .upload(Address::new(0x1000, 0))
+            .expect_err("no value");
+        fault.to_string()
+    };
+    let short = read(|frame| Frame::new(frame.id(), &frame.data()[..5]).expect("5 bytes"));
+    assert!(
+        short.contains("the length of a response is 5, and its value needs 8"),
+        "{short}"
+    );
+}
+
 #[test]
 fn a_response_to_an_earlier_request_does_not_count() {
     let mut bus = bus(&[("gxmm", 1)]);
