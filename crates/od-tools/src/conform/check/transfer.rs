@@ -531,14 +531,6 @@ pub(super) fn kinds(dut: &mut Dut<'_>) -> Checked<Vec<(&'static str, Act)>> {
             }),
         ),
     ];
-    if let Some((address, bytes)) = optional(segments::short_value(dut))? {
-        let value = bytes.clone();
-        let write = move |dut: &mut Dut<'_>| dut.write(address, &value);
-        all.push(("a download", Box::new(write)));
-        let write =
-            move |dut: &mut Dut<'_>| segments::written(dut, address, &bytes, bytes.len() / 2, true);
-        all.push(("a download by segments", Box::new(write)));
-    }
     if let Some((address, bytes)) = optional(segments::long_value(dut))? {
         let value = bytes.clone();
         let read = move |dut: &mut Dut<'_>| dut.is_as_written(address, &value);
@@ -575,6 +567,14 @@ pub(super) fn kinds(dut: &mut Dut<'_>) -> Checked<Vec<(&'static str, Act)>> {
             values.try_for_each(|value| block::writes(dut, address, value))
         };
         all.push(("a download by block", Box::new(write)));
+    }
+    if let Some((address, bytes)) = optional(segments::short_value(dut))? {
+        let value = bytes.clone();
+        let write = move |dut: &mut Dut<'_>| dut.write(address, &value);
+        all.push(("a download", Box::new(write)));
+        let write =
+            move |dut: &mut Dut<'_>| segments::written(dut, address, &bytes, bytes.len() / 2, true);
+        all.push(("a download by segments", Box::new(write)));
     }
     // A kind that the node does not have, or that is wrong alone, is the matter of another case.
     let mut here = Vec::new();
