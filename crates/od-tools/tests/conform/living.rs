@@ -117,6 +117,49 @@ fn a_node_that_is_silent_for_a_while_fails_only_these_cases() {
 }
 
 #[test]
+fn an_error_that_is_there_before_a_case_does_not_fail_it() {
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    for id in [
+        "emcy-reset-node",
+        "emcy-register-clears",
+        "heartbeat-consumer-ends",
+    ] {
+        // 1001h is 11h until the first boot-up message: an error that another case has left.
+        let shown = Cell::new(Some(0));
+        let mut rig = Odd {
+            bus: OnBench(bus("gxmm")),
+            change: |frame: Frame| {
+                let is_boot_up = frame.id().as_standard() == Some(0x701) && frame.data() == [0];
+                match (shown.get(), *frame.bytes()) {
+                    (Some(1..), _) if is_boot_up => shown.set(None),
+                    (Some(count), [0x4F, 1, 0x10, 0, ..]) => {
+                        shown.set(Some(count + 1));
+                        return Frame::new(frame.id(), &[0x4F, 1, 0x10, 0, 0x11, 0, 0, 0]);
+                    }
+                    _ => {}
+                }
+                Some(frame)
+            },
+        };
+        let leave = Leave {
+            reset: true,
+            store: false,
+            motion: false,
+        };
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let case = built_in().iter().find(|case| case.id == id);
+        let record = session.run(case.expect("a case"));
+        assert_eq!(record.verdict, Verdict::Pass, "{id}");
+        assert_eq!(
+            shown.get(),
+            None,
+            "{id}: the error was read, and a reset ended it"
+        );
+    }
+}
+
+#[test]
 fn a_node_that_stops_ends_the_run() {
     let mut count = 0;
     let (records, lost) = run(|frame| {

@@ -5,7 +5,7 @@ use od_wire::AbortCode::{NoData, NoSubIndex, ValueRange, ValueTooHigh};
 use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
-use super::heartbeat::{beat, emcy, watch};
+use super::heartbeat::{beat, emcy, register_before, watch};
 use crate::conform::dut::{Dut, FREE, QUIET, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, is_abort, request};
@@ -240,11 +240,7 @@ pub(super) fn register_clears(dut: &mut Dut<'_>) -> Checked {
 }
 
 fn clears_once(dut: &mut Dut<'_>) -> Checked {
-    // An error that is already present would hide this one.
-    if dut.number(0x1001, 0)? != 0 && dut.may_reset {
-        dut.reset(Command::ResetCommunication)?;
-    }
-    let before = dut.number(0x1001, 0)?;
+    let before = register_before(dut)?;
     let (node, _) = provoked(dut)?;
     let id = dut.id(0x80);
     let mut message = None;
@@ -275,7 +271,7 @@ fn clears_once(dut: &mut Dut<'_>) -> Checked {
 /// A reset ends an error of the communication: 1001h has no bit of it, and it is reported when it occurs again.
 pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
     for command in [Command::ResetNode, Command::ResetCommunication] {
-        let before = dut.number(0x1001, 0)?;
+        let before = register_before(dut)?;
         provoked(dut)?;
         dut.reset(command)?;
         let after = dut.number(0x1001, 0)?;

@@ -4,7 +4,7 @@ use od_model::{Address, values};
 use od_wire::Frame;
 use od_wire::nmt::Command;
 
-use super::heartbeat::{PRODUCER, emcy, emcy_since, sends_emcy};
+use super::heartbeat::{PRODUCER, emcy, emcy_since, register_before, sends_emcy};
 use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::end::{Checked, ensure, fail};
 
@@ -215,9 +215,9 @@ pub(super) fn life_reset(dut: &mut Dut<'_>) -> Checked {
 
 /// After guarding requests resume, 1001h has the value from before the error.
 pub(super) fn life_ends(dut: &mut Dut<'_>) -> Checked {
+    let before = register_before(dut)?;
     sends_emcy(dut)?;
     without_heartbeat(dut)?;
-    let before = dut.number(0x1001, 0)?;
     dut.set(Address::new(0x100C, 0), &[100, 0])?;
     dut.set(Address::new(0x100D, 0), &[2])?;
     dut.nmt(Command::Start)?;

@@ -175,6 +175,14 @@ pub(super) fn beat(dut: &mut Dut<'_>, node: u8) -> Checked {
     dut.send_to(0x700 + u16::from(node), &[5])
 }
 
+/// 1001h before an error. One that is already present would hide it, and a reset ends that, if the test may reset the node.
+pub(super) fn register_before(dut: &mut Dut<'_>) -> Checked<u64> {
+    if dut.number(0x1001, 0)? != 0 && dut.may_reset {
+        dut.reset(Command::ResetCommunication)?;
+    }
+    dut.number(0x1001, 0)
+}
+
 /// The next EMCY of the node with this code.
 pub(super) fn emcy(dut: &mut Dut<'_>, code: u16, micros: u64) -> Checked<Option<Frame>> {
     let id = dut.id(0x80);
@@ -280,7 +288,7 @@ pub(super) fn consumer_together(dut: &mut Dut<'_>) -> Checked {
 
 /// After the heartbeats come again, 1001h has the value from before the error, and the node follows NMT commands.
 pub(super) fn consumer_ends(dut: &mut Dut<'_>) -> Checked {
-    let before = dut.number(0x1001, 0)?;
+    let before = register_before(dut)?;
     let shows_state = optional(dut.follow_state())?.is_some();
     let node = watch(dut, 200)?;
     dut.nmt(Command::Start)?;
