@@ -154,11 +154,15 @@ fn run(input: &[u8]) {
     }
 }
 
-/// The records that a format can keep: candump and pcapng have no direction.
+/// The records that a format can keep: candump and pcapng have no direction, the others do not say which error it was.
 fn kept(format: Format, log: &Log) -> Vec<Record> {
-    let has_direction = !matches!(format, Format::Candump | Format::Pcapng);
+    let is_of_socketcan = matches!(format, Format::Candump | Format::Pcapng);
     let kept = log.records.iter().map(|record| Record {
-        sent: record.sent && has_direction,
+        sent: record.sent && !is_of_socketcan,
+        what: match record.what {
+            What::Error(_) if !is_of_socketcan => What::Error(BusError::Frame),
+            what => what,
+        },
         ..*record
     });
     kept.collect()
