@@ -42,7 +42,7 @@ fn abort(number: u32) -> Option<String> {
     Some(text)
 }
 
-/// What to look at first.
+/// The place to look at first.
 fn check(code: AbortCode) -> Option<&'static str> {
     Some(match code {
         AbortCode::ToggleBit => {

@@ -39,6 +39,12 @@ impl DeviceApplication {
         Ok(look(store.bytes(&entry, &mut [0; 8])))
     }
 
+    /// Greatest length of the value at an address, in bytes.
+    fn limit(&mut self, store: &Store<'_>, address: Address) -> Result<usize, Halt> {
+        let entry = store.dictionary().find(address).map_err(AbortCode::from)?;
+        Ok(self.long().limit(store, &entry))
+    }
+
     /// Stores a value whose last part was written.
     fn keep(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), Halt> {
         let mut value = core::mem::take(self.long().coming(address));
@@ -70,12 +76,7 @@ impl Stream for DeviceApplication {
         address: Address,
         size: Option<u32>,
     ) -> Result<(), Halt> {
-        let entry = cx
-            .store
-            .dictionary()
-            .find(address)
-            .map_err(AbortCode::from)?;
-        let limit = self.long().limit(cx.store, &entry);
+        let limit = self.limit(cx.store, address)?;
         if size.is_some_and(|size| size as usize > limit) {
             return Err(AbortCode::TooLong.into());
         }
@@ -88,12 +89,7 @@ impl Stream for DeviceApplication {
         address: Address,
         chunk: Chunk<'_>,
     ) -> Result<(), Halt> {
-        let entry = cx
-            .store
-            .dictionary()
-            .find(address)
-            .map_err(AbortCode::from)?;
-        let limit = self.long().limit(cx.store, &entry);
+        let limit = self.limit(cx.store, address)?;
         if self.long().coming(address).len() + chunk.bytes.len() > limit {
             return Err(AbortCode::TooLong.into());
         }

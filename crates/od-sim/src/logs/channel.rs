@@ -11,7 +11,7 @@ pub(super) enum Form {
     Candump,
     /// Vector ASC: a number after the time.
     Asc,
-    /// What python-can prints: after `Channel:`.
+    /// Lines that python-can prints: after `Channel:`.
     Columns,
     /// No name of a channel is read.
     Other,
