@@ -107,13 +107,18 @@ fn keeps_sample(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize, before: &[Option<u64>
 pub(super) fn moving(dut: &mut Dut<'_>) -> Checked {
     const ROUNDS: usize = 6;
     learn_sync(dut)?;
-    on_each(dut, |dut, pdo, _| {
+    on_each(dut, |dut, pdo, len| {
         let all = mapping(dut, pdo.map())?;
         let mut any = false;
-        for by_sync in [false, true] {
-            if by_sync {
+        // By event timer, SYNC and remote frame.
+        for kind in [255, 1, 253] {
+            let is_remote = kind == 253;
+            if is_remote && !CobId::new(pdo.cob_id).allows_rtr() {
+                continue;
+            }
+            if kind != 255 {
                 dut.keep(pdo.address(2))?;
-                if dut.download(pdo.address(2), &[1])?.is_err() {
+                if dut.download(pdo.address(2), &[kind])?.is_err() {
                     continue;
                 }
             } else if let Err(other) = timed_on(dut, pdo, 50) {
@@ -127,8 +132,10 @@ pub(super) fn moving(dut: &mut Dut<'_>) -> Checked {
             for _ in 0..ROUNDS {
                 dut.wait(20_000)?;
                 read_values.push(read(dut, &all)?);
-                if by_sync {
+                if kind == 1 {
                     sync(dut)?;
+                } else if is_remote {
+                    dut.ask_for(pdo.id(), len as u8)?;
                 }
                 if let Some(heard) = next(dut, pdo, 200_000)? {
                     sent.push(fields(&heard.frame, &all));

@@ -497,5 +497,22 @@ fn is_in_time(dut: &mut Dut<'_>, pdo: &Tpdo, changed: &Changed, millis: u16) -> 
             return fail(expected, format!("{frame} came"));
         }
     }
-    Ok(())
+    // An RPDO that was late in Operational before ends its error, too.
+    let before = dut.number(0x1001, 0)?;
+    let send = |dut: &mut Dut<'_>| {
+        let frame = Frame::new(pdo.id(), &changed.bytes);
+        frame.map_or(Ok(()), |frame| dut.send(frame))
+    };
+    send(dut)?;
+    dut.wait(2 * time)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.nmt(Command::Start)?;
+    send(dut)?;
+    dut.wait(time / 4)?;
+    let after = dut.number(0x1001, 0)?;
+    ensure(
+        after == before,
+        format!("1001h = {before:02X}h, as {name} comes again after Pre-operational"),
+        format!("{after:02X}h was read"),
+    )
 }

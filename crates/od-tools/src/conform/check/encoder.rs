@@ -354,6 +354,60 @@ pub(super) fn revolutions(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// While the shaft turns, 6030h is above 0 if the position counts up, with each code sequence (bit 0 of 6000h).
+pub(super) fn speed_direction(dut: &mut Dut<'_>) -> Checked {
+    let options = Address::new(0x2110, 0);
+    let is_eam = super::maker::is_of(dut, &[super::maker::EAM]).is_ok();
+    if is_eam && dut.eds.has(options.index) && dut.number(options.index, 0)? & 1 == 1 {
+        return lacks("bit 0 of 2110h excludes the speed from the code sequence");
+    }
+    if dut.eds.entry(0x6031, 4).is_some() && dut.number(0x6031, 4)? != 1 {
+        return lacks("6030h is divided by 6031h:04");
+    }
+    let range = match dut.number(RANGE.index, 0)? {
+        0 => 1 << 32,
+        range => range,
+    };
+    let sequence = Address::new(0x6000, 0);
+    let own = dut.keep(sequence)?;
+    for bit in [1, 0] {
+        let mut bytes = own.clone();
+        if let Some(first) = bytes.first_mut() {
+            *first ^= bit;
+        }
+        if dut.download(sequence, &bytes)?.is_err() {
+            continue;
+        }
+        // A device computes a speed over some time.
+        dut.wait(500_000)?;
+        let before = dut.number(0x6004, 0)?;
+        let speed = dut.read(Address::new(0x6030, 1))?;
+        let speed = super::axis::signed(&speed);
+        dut.wait(100_000)?;
+        let off = (dut.number(0x6004, 0)? + range - before % range) % range;
+        let counts_up = off < range / 2;
+        if off.min(range - off) < 4 * NOISE || speed == 0 {
+            return lacks("the shaft does not turn fast enough");
+        }
+        // The position must not pass half of its range meanwhile.
+        if speed.unsigned_abs() > range {
+            return lacks("the shaft turns too fast");
+        }
+        let done = ensure(
+            counts_up == (speed > 0),
+            format!(
+                "a speed {} 0 in 6030h:01, as the position counts {}, with {:02X}h in 6000h",
+                if counts_up { "above" } else { "below" },
+                if counts_up { "up" } else { "down" },
+                bytes.first().copied().unwrap_or_default()
+            ),
+            format!("{speed} was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
 /// While the shaft turns, 6030h is multiplied by 6031h:03 and divided by 6031h:04.
 pub(super) fn speed_factor(dut: &mut Dut<'_>) -> Checked {
     let [multiplier, divider] = [3, 4].map(|sub| Address::new(0x6031, sub));

@@ -283,7 +283,27 @@ pub(super) fn consumer_together(dut: &mut Dut<'_>) -> Checked {
             dut.fault(fail(expected, "none came"))?;
         }
     }
-    Ok(())
+    // All are missing, then one of them only.
+    for node in &nodes {
+        beat(dut, *node)?;
+    }
+    dut.wait(50_000)?;
+    let before = dut.number(0x1001, 0)?;
+    dut.wait(400_000)?;
+    let lost = dut.number(0x1001, 0)?;
+    let (last, others) = nodes.split_last().unwrap_or((&0, &[]));
+    for _ in 0..3 {
+        for node in others {
+            beat(dut, *node)?;
+        }
+        dut.wait(50_000)?;
+    }
+    let is = dut.number(0x1001, 0)?;
+    ensure(
+        is == lost || lost == before,
+        format!("1001h = {lost:02X}h until the heartbeat of node {last} comes again, too"),
+        format!("{is:02X}h was read"),
+    )
 }
 
 /// After the heartbeats come again, 1001h has the value from before the error, and the node follows NMT commands.

@@ -157,6 +157,32 @@ pub(super) fn store_node_id(dut: &mut Dut<'_>) -> Checked {
     done.and(back)
 }
 
+/// A node ID that was configured, and not stored, is forgotten with a start.
+pub(super) fn forgets_node_id(dut: &mut Dut<'_>) -> Checked {
+    let own = dut.node;
+    let other = another_id(dut)?;
+    configured(dut)?;
+    let node_id = other.raw();
+    let answer = ask(dut, Request::ConfigureNodeId { node_id })?;
+    waiting(dut)?;
+    if !matches!(answer, Some([0x11, 0, ..])) {
+        dut.nmt(Command::EnterPreOperational)?;
+        return lacks(format!("the node refuses node ID {other}"));
+    }
+    let done = started_as(dut, [other, own]);
+    if dut.node != own {
+        dut.nmt(Command::EnterPreOperational)?;
+        if renumber(dut, own)? {
+            stored(dut)?;
+        } else {
+            let note = format!("could not put back node ID {own}: the node has node ID {other}");
+            dut.notes.push(note);
+        }
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    done
+}
+
 /// Stores the LSS configuration.
 fn stored(dut: &mut Dut<'_>) -> Checked {
     configured(dut)?;
@@ -200,7 +226,7 @@ fn started_as(dut: &mut Dut<'_>, ids: [NodeId; 2]) -> Checked {
             };
             ensure(
                 dut.node == ids[1],
-                format!("the stored node ID {} after a start", ids[1]),
+                format!("node ID {}, the stored one, after a start", ids[1]),
                 format!("{} came", heard.frame),
             )
         }

@@ -5,7 +5,7 @@ use od_wire::nmt::Command;
 use od_wire::{CanId, CobId, Frame};
 
 use super::each_rpdo::{NEEDS_MOTION, has_sound_mapping, outputs, takes, with_another};
-use super::heartbeat::{beat, emcy, sends_emcy, watch};
+use super::heartbeat::{beat, emcy, emcy_since, sends_emcy, watch};
 use super::mapping::{self, DUMMY, each_refuses, on, raw};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
@@ -245,9 +245,26 @@ pub(super) fn second_error(dut: &mut Dut<'_>) -> Checked {
             "none came",
         );
     }
-    // Both errors end.
+    // One error ends: 1001h has the other one, and so has a message about the end (CiA 301, 7.2.7.1).
     let (good, _) = pdo.other(dut)?;
+    let from = dut.frames.len();
     pdo.send(dut, &good)?;
+    let rest = dut.number(0x1001, 0)?;
+    let done = ensure(
+        rest & 0x10 != 0,
+        "1 in bit 4 of 1001h, as the heartbeat is still missing after the other error ended",
+        format!("{rest:02X}h was read"),
+    );
+    dut.fault(done)?;
+    if let Some(frame) = emcy_since(dut, from, 0, 50_000)? {
+        let done = ensure(
+            u64::from(frame.bytes()[2]) == rest,
+            format!("{rest:02X}h in byte 2 of the EMCY message about the end of one of two errors"),
+            format!("{frame} came"),
+        );
+        dut.fault(done)?;
+    }
+    // Both errors end.
     beat(dut, node)?;
     dut.write(Address::new(0x1016, 1), &[0; 4])?;
     dut.wait(50_000)?;

@@ -2,6 +2,7 @@
 
 use od_model::{Address, values};
 use od_wire::nmt::Command;
+use od_wire::{Frame, Instant};
 
 use super::content::carries_values;
 use super::each_rpdo::{Changed, outputs, takes, valid, with_another};
@@ -56,9 +57,9 @@ fn saves_mapping(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
         return lacks("the node does not take another mapping and CAN-ID");
     }
     let kept = dut.undo.len();
-    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+    let test = |dut: &mut Dut<'_>, reset| {
         configured(dut, &pdo, &old, pdo.cob_id)?;
-        dut.reset(Command::ResetNode)?;
+        dut.reset(reset)?;
         let wanted = [
             (com, moved.cob_id.to_le_bytes().to_vec()),
             (Address::new(map, 0), vec![1]),
@@ -78,10 +79,15 @@ fn saves_mapping(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
             dut.fault(kept)?;
         }
         match timed_on(dut, &moved, 50).and_then(|()| carries_values(dut, &moved)) {
-            Err(End::NotApplicable(_)) => Ok(()),
-            done => done,
+            Err(End::NotApplicable(_)) => {}
+            done => done?,
         }
-    });
+        dut.nmt(Command::EnterPreOperational)?;
+        dut.put_back_since(kept)
+    };
+    let done = command(dut, 0x1010, 1, b"save")
+        .and_then(|()| test(dut, Command::ResetNode))
+        .and_then(|()| test(dut, Command::ResetCommunication));
     if let Err(End::Lost(_)) = done {
         return done;
     }
@@ -214,13 +220,33 @@ fn after_save(
 pub(super) fn heartbeat(dut: &mut Dut<'_>) -> Checked {
     after_save(dut, &[(Address::new(0x1017, 0), &[100, 0])], |dut| {
         let id = dut.id(0x700);
-        match dut.next(1_000_000, |frame| is_data(frame, id) && frame.data() != [0])? {
-            Some(_) => Ok(()),
-            None => fail(
+        let is_beat = |frame: &Frame| is_data(frame, id) && frame.data() != [0];
+        if dut.next(1_000_000, is_beat)?.is_none() {
+            return fail(
                 "a heartbeat within 1 s of the boot-up, as 1017h = 100 was saved",
                 "none came",
-            ),
+            );
         }
+        dut.wait(300_000)?;
+        let beats = dut.frames.iter().rev();
+        let mut beats = beats.filter(|one| !one.ours && is_data(&one.frame, id));
+        // Up to the boot-up message, which counts as the first one (CiA 301, 7.2.8.3.3).
+        let mut last = None;
+        let mut gaps = Vec::new();
+        let mut is_over = false;
+        while let Some(one) = beats.next().filter(|_| !is_over) {
+            gaps.extend(
+                last.replace(one.at)
+                    .map(|next: Instant| next.micros_since(one.at)),
+            );
+            is_over = one.frame.data() == [0];
+        }
+        let shortest = gaps.iter().min().copied().unwrap_or(u64::MAX);
+        ensure(
+            shortest + dut.rig.slack() >= 50_000,
+            "heartbeats every 100 ms from the boot-up message on, as 1017h = 100 was saved",
+            format!("one came after {} ms", shortest / 1000),
+        )
     })
 }
 

@@ -15,9 +15,19 @@ use crate::conform::sdo::{abort_of, abort_text, is_abort, names, request, reserv
 
 /// An object with a value of more than four bytes, if possible of more than seven.
 pub(super) fn long_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
+    long_value_except(dut, None)
+}
+
+/// As [`long_value`], of another object than this one.
+pub(super) fn long_value_except(
+    dut: &mut Dut<'_>,
+    except: Option<Address>,
+) -> Checked<(Address, Vec<u8>)> {
     let dictionary = dut.eds.dictionary();
     let fits = |entry: &Entry| {
-        entry.access.readable() && entry.data_type.size().is_none_or(|size| size > 4)
+        entry.access.readable()
+            && entry.data_type.size().is_none_or(|size| size > 4)
+            && except != Some(entry.address)
     };
     let mut found = None;
     for entry in dictionary.entries().filter(fits).take(12) {

@@ -7,7 +7,7 @@ use od_wire::{CanId, CobId, Frame};
 use super::segments;
 use super::transfer::another_value;
 use crate::conform::dut::{ANSWER, Dut, FREE, QUIET};
-use crate::conform::end::{Checked, End, at_least_one, ensure, fail};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, optional};
 use crate::conform::sdo::{abort_text, is_abort, number, request};
 
 const TYPE: Address = Address::new(0x1000, 0);
@@ -194,6 +194,9 @@ fn is_off(dut: &mut Dut<'_>, channel: Channel) -> Checked {
 /// Each SDO server has a transfer of its own, which no request and no abort of another one ends.
 pub(super) fn servers_parallel(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = segments::long_value(dut)?;
+    // Another value by the other server, if there is one.
+    let other = optional(segments::long_value_except(dut, Some(address)))?;
+    let (second, further_bytes) = other.unwrap_or((address, bytes.clone()));
     let abort = request(0x80, address, [0, 0, 0, 8]);
     let mut any = false;
     for index in 0x1201..=0x1208 {
@@ -204,25 +207,26 @@ pub(super) fn servers_parallel(dut: &mut Dut<'_>) -> Checked {
         segments::begin(dut, address)?;
         channel.serves(dut, request(0x40, TYPE, [0; 4]))?;
         // A server may refuse an object while another one sends its value.
-        channel.serves(dut, request(0x40, address, [0; 4]))?;
+        channel.serves(dut, request(0x40, second, [0; 4]))?;
         dut.send(Frame::full(channel.ask, abort))?;
         dut.settle(5_000)?;
         let first = dut.segments(None)?;
-        channel.serves(dut, request(0x40, address, [0; 4]))?;
+        channel.serves(dut, request(0x40, second, [0; 4]))?;
         let _ = dut.upload(address)?;
         dut.send(Frame::full(dut.node.plus(0x600), abort))?;
         dut.settle(5_000)?;
-        let further = channel.segments(dut, address)?;
-        let further = (further, format!("{index:04X}h, while the first one"));
-        for (again, server) in [
-            (first, format!("the first SDO server, while {index:04X}h")),
-            further,
+        let further = channel.segments(dut, second)?;
+        let first_name = format!("{address} by the first SDO server, while {index:04X}h");
+        let further_name = format!("{second} by {index:04X}h, while the first one");
+        for (again, bytes, name) in [
+            (first, &bytes, first_name),
+            (further, &further_bytes, further_name),
         ] {
             let done = ensure(
-                again == bytes,
+                again == *bytes,
                 format!(
-                    "{} of {address} by {server} serves and is told of an abort, too",
-                    values::hex(&bytes)
+                    "{} of {name} serves and is told of an abort, too",
+                    values::hex(bytes)
                 ),
                 format!("{} came", values::hex(&again)),
             );

@@ -7,7 +7,8 @@ use od_wire::{CanId, CobId, Frame};
 use super::each_tpdo::on_each;
 use super::transmit::{Tpdo, learn_sync, sync, typed, typed_on};
 use crate::conform::dut::{Dut, FREE, QUIET};
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, at_least_one, ensure, fail, lacks};
+use crate::conform::sdo::number;
 use crate::link::Heard;
 
 const COB_ID: Address = Address::new(0x1005, 0);
@@ -560,6 +561,29 @@ pub(super) fn time_cob_id(dut: &mut Dut<'_>) -> Checked {
         "a CAN-ID of 11 bits, or bit 29, in 1012h",
         format!("{raw:08X}h was read"),
     )
+}
+
+/// While the node consumes or produces TIME, the CAN-ID in 1012h cannot be changed.
+pub(super) fn time_cob_id_fixed(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1012, 0);
+    let raw = number(&dut.keep(address)?) as u32;
+    let off = raw & 0x3FFF_FFFF;
+    let mut any = false;
+    for flag in [1 << 31, 1 << 30] {
+        if dut.download(address, &(off | flag).to_le_bytes())?.is_err() {
+            continue;
+        }
+        any = true;
+        let other = (off & !0x7FF) | u32::from(FREE + 2);
+        let why = "as the node uses TIME with another CAN-ID";
+        let done = dut.cannot_change(address, &(other | flag).to_le_bytes(), why);
+        if matches!(done, Err(End::Fail { .. })) {
+            dut.write(address, &other.to_le_bytes())?;
+        }
+        dut.fault(done)?;
+        dut.write(address, &off.to_le_bytes())?;
+    }
+    at_least_one(any, "the node neither consumes nor produces TIME")
 }
 
 /// The node continues to work after valid and invalid TIME messages.

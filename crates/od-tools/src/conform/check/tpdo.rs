@@ -126,6 +126,45 @@ fn with_sync(dut: &mut Dut<'_>, pdo: &Tpdo, kind: u8, count: u16) -> Checked {
     )
 }
 
+/// A start in Operational is not a transition: the count of SYNC messages goes on.
+pub(super) fn started_again(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    on_each(dut, |dut, pdo, _| {
+        typed_on(dut, pdo, 3)?;
+        starts_silent(dut, pdo)?;
+        // Devices differ in which SYNC they count first.
+        let mut is_sent = false;
+        for _ in 0..3 {
+            sync(dut)?;
+            is_sent |= next(dut, pdo, 30_000)?.is_some();
+            if is_sent {
+                break;
+            }
+        }
+        if !is_sent {
+            return lacks("the TPDO does not come with three SYNC messages");
+        }
+        let mut came = Vec::new();
+        for turn in 1..=3 {
+            sync(dut)?;
+            if next(dut, pdo, 30_000)?.is_some() {
+                came.push(turn);
+            }
+            if turn == 1 {
+                starts_silent(dut, pdo)?;
+            }
+        }
+        ensure(
+            came == [3],
+            format!(
+                "TPDO{} with the third SYNC after the one before, by transmission type 3, also if NMT start comes again after the first",
+                pdo.com - 0x17FF
+            ),
+            format!("it came with {came:?}"),
+        )
+    })
+}
+
 /// SYNC messages of the right length cause no EMCY message; `from` is the number of a frame.
 pub(super) fn no_emcy_since(dut: &Dut<'_>, from: usize) -> Checked {
     let id = dut.id(0x80);
@@ -631,16 +670,18 @@ pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// An inhibit time that is longer than the event timer, and one that is shorter.
 pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 20)?;
     if !dut.eds.writes(pdo.com, 3) || !dut.eds.writes(pdo.com, 1) {
         return lacks("the inhibit time cannot be written");
     }
-    dut.set(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    let off = (pdo.cob_id | 1 << 31).to_le_bytes();
+    dut.set(pdo.address(1), &off)?;
     let before = dut.read(pdo.address(3))?;
     dut.write(pdo.address(3), &1000u16.to_le_bytes())?;
     dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    let done = gaps(
+    let mut done = gaps(
         dut,
         &pdo,
         4,
@@ -648,7 +689,16 @@ pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
         "every 100 ms at most",
     );
     dut.nmt(Command::EnterPreOperational)?;
-    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    dut.write(pdo.address(1), &off)?;
+    if done.is_ok() {
+        dut.write(pdo.address(3), &200u16.to_le_bytes())?;
+        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+        dut.write(pdo.address(5), &150u16.to_le_bytes())?;
+        let shown = "every 150 ms, the event timer, with an inhibit time of 20 ms";
+        done = timer_gaps(dut, &pdo, 4, 150_000, shown);
+        dut.nmt(Command::EnterPreOperational)?;
+        dut.write(pdo.address(1), &off)?;
+    }
     dut.write(pdo.address(3), &before)?;
     dut.notes.push(format!(
         "put back {} = {}",
