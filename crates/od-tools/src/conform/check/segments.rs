@@ -173,7 +173,7 @@ fn need_not(dut: &Dut<'_>, code: u32) -> Checked {
 }
 
 /// Begins a segmented download.
-fn begin_download(dut: &mut Dut<'_>, address: Address, size: usize) -> Checked {
+pub(super) fn begin_download(dut: &mut Dut<'_>, address: Address, size: usize) -> Checked {
     let answer = dut.answer(request(0x21, address, (size as u32).to_le_bytes()))?;
     if let Some(code) = abort_of(&answer) {
         need_not(dut, code)?;
@@ -229,7 +229,7 @@ pub(super) fn download_toggle(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// A segment of a download; `flags` are its toggle bit, and bit 0 of the last one.
-fn segment(flags: u8, part: &[u8]) -> [u8; 8] {
+pub(super) fn segment(flags: u8, part: &[u8]) -> [u8; 8] {
     let mut segment = [0; 8];
     segment[0] = flags | (7 - part.len() as u8) << 1;
     segment[1..=part.len()].copy_from_slice(part);

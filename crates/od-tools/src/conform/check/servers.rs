@@ -232,8 +232,44 @@ pub(super) fn servers_parallel(dut: &mut Dut<'_>) -> Checked {
             );
             dut.fault(done)?;
         }
+        let kept = dut.undo.len();
+        let done = downloads_parallel(dut, channel);
+        dut.fault(done)?;
+        dut.put_back_since(kept)?;
     }
     at_least_one(any, "the node has one SDO server")
+}
+
+/// A download of one segment by this server, between two segments of a download by the first one.
+fn downloads_parallel(dut: &mut Dut<'_>, channel: Channel) -> Checked {
+    let (Some((long, before)), Some((short, value))) =
+        (segments::long_writable(dut)?, another_value(dut)?)
+    else {
+        return Ok(());
+    };
+    dut.keep(long)?;
+    dut.keep(short)?;
+    let mut bytes = before[..8].to_vec();
+    bytes.rotate_left(1);
+    segments::begin_download(dut, long, bytes.len())?;
+    dut.answer(segments::segment(0, &bytes[..7]))?;
+    let size = [value.len() as u8, 0, 0, 0];
+    channel.serves(dut, request(0x21, short, size))?;
+    channel.ask(dut, segments::segment(1, &value), ANSWER)?;
+    dut.answer(segments::segment(0x11, &bytes[7..]))?;
+    for (address, wanted) in [(long, bytes), (short, value)] {
+        let is = dut.read(address)?;
+        let done = ensure(
+            is == wanted,
+            format!(
+                "{} in {address}, as two SDO servers received values at the same time",
+                values::hex(&wanted)
+            ),
+            format!("{} was read", values::hex(&is)),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
 }
 
 pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
