@@ -17,6 +17,7 @@ use crate::rules::structure::reader::{
     w0302_object_type_missing, w0316_sub_number_not_a_number, w0317_sub_number_missing,
     w0322_sub_index_not_var, w0324_compact_beside_sections, w0325_value_of_array,
 };
+use crate::rules::values::w0427_domain_with_number_type::w0427_number_in_domain;
 use crate::scan::section::{Text, TextSection};
 use crate::span::Spanned;
 use crate::standards::cia301;
@@ -179,6 +180,7 @@ fn member(address: Address, section: TextSection<'_>, log: &mut Log) -> EntryDes
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
     let mut unread = Vec::new();
+    let mut domain = None;
     let mut assumed = Assumed::Standard {
         sub: address.sub,
         is_whole: false,
@@ -194,9 +196,15 @@ fn member(address: Address, section: TextSection<'_>, log: &mut Log) -> EntryDes
         }
         if code == Some(ObjectCode::Domain) {
             assumed = Assumed::Domain;
+            domain = Some(given.span);
         }
     }
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
+    if let Some((code, given)) = domain.zip(entry.data_type)
+        && let Some(finding) = w0427_number_in_domain(code, given)
+    {
+        reader.report(finding);
+    }
     unread.append(&mut more);
     entry.extra = extra(fields.rest(address, false, reader.log), unread);
     entry

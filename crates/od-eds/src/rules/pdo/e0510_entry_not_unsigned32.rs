@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
-use crate::rules::pdo::shared::counted;
+use crate::rules::pdo::shared::maps_rpdo;
 use crate::subject::Object;
 use od_model::DataType;
 
@@ -18,7 +18,11 @@ pub(crate) static E0510: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    for entry in counted(object) {
+    if maps_rpdo(object.index).is_none() || !object.code.has_members() {
+        return;
+    }
+    // A master can write an entry that is not used, too.
+    for entry in object.entries().filter(|entry| entry.address.sub != 0) {
         if let Some(given) = entry
             .data_type
             .filter(|given| **given != DataType::Unsigned32)

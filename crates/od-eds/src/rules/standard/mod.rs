@@ -38,7 +38,7 @@ catalogue! {
     w0656_guarding_and_heartbeat W0656
     i0657_vendor_id_0 I0657
     reader W0658
-    w0659_identity_with_node_id W0659
+    w0659_value_with_node_id W0659
     w0660_slave_bit_missing W0660
     w0661_group_messaging W0661
     w0662_slaves_without_master W0662
@@ -70,7 +70,7 @@ pub(crate) mod w0649_sync_contradiction;
 pub(crate) mod w0653_commissioning_incomplete;
 pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;
-pub(crate) mod w0659_identity_with_node_id;
+pub(crate) mod w0659_value_with_node_id;
 pub(crate) mod w0660_slave_bit_missing;
 pub(crate) mod w0661_group_messaging;
 pub(crate) mod w0662_slaves_without_master;

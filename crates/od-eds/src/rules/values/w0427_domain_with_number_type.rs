@@ -2,8 +2,9 @@ use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
-use crate::subject::Object;
-use od_model::{Kind, ObjectCode};
+use crate::span::{Span, Spanned};
+use crate::subject::{Object, Subject as _};
+use od_model::{DataType, Kind, ObjectCode};
 
 pub(crate) static W0427: Rule = Rule {
     title: "DOMAIN has the type of a number",
@@ -11,21 +12,26 @@ pub(crate) static W0427: Rule = Rule {
     source: "CiA 301, object codes; CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "{ObjectType} is DOMAIN, but {DataType} is {given}",
-    help: "write `{DataType=0x000F}` (DOMAIN){fix}, or `{ObjectType=0x7}` (VAR)",
+    help: "write `{ObjectType=0x7}` (VAR){fix}, or `{DataType=0x000F}` (DOMAIN)",
     check: Check::Object(check),
     ..Rule::of("W0427")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    if *object.code != ObjectCode::Domain {
-        return;
+    if *object.code == ObjectCode::Domain {
+        let types = object.entries().filter_map(|entry| entry.data_type);
+        let found = types.filter_map(|given| w0427_number_in_domain(object.code.span, given));
+        findings.extend(found.map(|finding| finding.about(object.address())));
     }
-    for entry in object.entries() {
-        let number = |kind| !matches!(kind, Kind::Text | Kind::Bytes | Kind::Record);
-        if let Some(given) = entry.data_type.filter(|given| number(given.kind())) {
-            let finding = W0427.on(&entry, given.span).fact("given", *given);
-            let finding = finding.related(object.code.span, "declared as DOMAIN here");
-            findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, "0x000F")));
-        }
+}
+
+/// The finding about the data type of an object or a sub-index that is a DOMAIN, if it is that of a number; `code` is
+/// the place of its ObjectType.
+pub(crate) fn w0427_number_in_domain(code: Span, given: Spanned<DataType>) -> Option<Finding> {
+    if matches!(given.kind(), Kind::Text | Kind::Bytes | Kind::Record) {
+        return None;
     }
+    let finding = W0427.at(given.span).fact("given", *given);
+    let finding = finding.related(code, "declared as DOMAIN here");
+    Some(finding.fix(Fix::unsafe_fix().replace(code, "0x7")))
 }
