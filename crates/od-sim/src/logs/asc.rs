@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Entry, FD, Reader, Record, frame, id};
+use super::record::{BusError, Entry, FD, Reader, Record, frame, id};
 use super::stamp;
 
 /// Returns whether this line shows that the text is an ASC log.
@@ -71,6 +71,19 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     })
 }
 
+/// States of the controller in an event, after `CAN 1 Status:`.
+const STATES: [(&str, BusError); 3] = [
+    ("chip status warning level", BusError::Warning),
+    ("chip status error passive", BusError::Passive),
+    ("chip status busoff", BusError::BusOff),
+];
+
+/// The words for a state of the controller; `None`: an error frame.
+pub(super) fn status(error: BusError) -> Option<&'static str> {
+    let mut all = STATES.iter();
+    all.find_map(|(words, state)| (*state == error).then_some(*words))
+}
+
 /// `1  601  Rx  d 8 40 04 …`, `1  64x  Rx  r 2`, `1  ErrorFrame`; all others are events.
 fn record(at: Instant, words: &[&str], radix: u32) -> Result<Entry, String> {
     let lower = |at: usize| words.get(at).map(|word| word.to_ascii_lowercase());
@@ -83,6 +96,15 @@ fn record(at: Instant, words: &[&str], radix: u32) -> Result<Entry, String> {
     }
     if second.starts_with("errorframe") {
         return Ok(Entry::Record(Record::error(at)));
+    }
+    if channel == "can" {
+        let event = words
+            .join(" ")
+            .to_ascii_lowercase()
+            .replace("bus off", "busoff");
+        let mut states = STATES.iter();
+        let state = states.find_map(|(words, state)| event.contains(words).then_some(*state));
+        return Ok(state.map_or(Entry::Other, |state| Entry::Record(Record::of(at, state))));
     }
     let is_channel = channel.parse::<u8>().is_ok();
     let (sent, kind) = match (lower(2).as_deref(), lower(3)) {

@@ -149,14 +149,19 @@ fn event(object: &Object<'_>, capture: &mut Capture) {
     let Some(at) = time(object.bytes) else {
         return capture.skip("its head is too short".into());
     };
-    if is_error {
-        return capture.records.push(Record::error(at));
-    }
     let start = half(object.bytes, 4).map_or(EVENT_HEAD, usize::from);
     let data = object
         .bytes
         .get(start.max(EVENT_HEAD)..)
         .unwrap_or_default();
+    let channel = match object.kind {
+        kind::CAN_FD_MESSAGE_64 | kind::CAN_FD_ERROR_64 => data.first().copied().map(u16::from),
+        _ => half(data, 0),
+    };
+    let channel = channel.unwrap_or_default().to_string();
+    if is_error {
+        return capture.add(Record::error(at), &channel);
+    }
     match message(object.kind, data) {
         Some(Message { is_fd: true, .. }) => capture.skip(FD.into()),
         Some(Message {
@@ -168,7 +173,7 @@ fn event(object: &Object<'_>, capture: &mut Capture) {
             ..
         }) => {
             let record = Record::received(at, frame).sent(direction == SENT);
-            capture.records.push(record);
+            capture.add(record, &channel);
         }
         _ => capture.skip("it is too short for a CAN frame".into()),
     }
@@ -362,6 +367,7 @@ mod tests {
                 "{size}"
             );
             assert_eq!(read.others, 2);
+            assert_eq!(read.channels, ["1", "0"]);
             let said: Vec<String> = read.skipped.iter().map(ToString::to_string).collect();
             assert_eq!(said.len(), 1, "{said:?}");
             assert!(

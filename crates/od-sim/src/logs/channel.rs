@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use super::record::Record;
+use super::record::{Record, fields};
 
 /// The form of a text log, which says where the name of a channel is.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -12,14 +12,18 @@ pub(super) enum Form {
     /// Vector ASC: a number after the time.
     Asc,
     /// Lines that python-can prints: after `Channel:`.
-    Columns,
+    Printed,
+    /// A word of each line, counted from 0: TRC, BUSMASTER, Kvaser.
+    Word(usize),
+    /// A field of a table, counted from 0.
+    Field(usize),
     /// No name of a channel is read.
     Other,
 }
 
 impl Form {
     /// The name of the channel in a line with a frame; empty without one.
-    fn name(self, line: &str) -> &str {
+    pub(super) fn name(self, line: &str) -> &str {
         let line = line.trim_start();
         match self {
             Self::Candump => {
@@ -31,14 +35,16 @@ impl Form {
             Self::Asc => {
                 let mut words = line.split_whitespace().skip(1);
                 let mut word = words.next().unwrap_or_default();
-                if word.eq_ignore_ascii_case("canfd") {
+                if ["can", "canfd"].contains(&&*word.to_ascii_lowercase()) {
                     word = words.next().unwrap_or_default();
                 }
                 word
             }
-            Self::Columns => line
+            Self::Printed => line
                 .rsplit_once("Channel:")
                 .map_or("", |(_, name)| name.trim()),
+            Self::Word(place) => line.split_whitespace().nth(place).unwrap_or_default(),
+            Self::Field(place) => fields(line).nth(place).unwrap_or_default(),
             Self::Other => "",
         }
     }
@@ -48,22 +54,14 @@ impl Form {
 const MOST: usize = 32;
 
 /// Collects the channels of the records of a log.
+#[derive(Default)]
 pub(super) struct Channels {
-    form: Form,
     names: Vec<String>,
 }
 
 impl Channels {
-    pub(super) const fn new(form: Form) -> Self {
-        Self {
-            form,
-            names: Vec::new(),
-        }
-    }
-
-    /// The number of the channel that a line names.
-    pub(super) fn number(&mut self, line: &str) -> u8 {
-        let name = self.form.name(line);
+    /// The number of the channel with this name.
+    pub(super) fn number(&mut self, name: &str) -> u8 {
         let known = self.names.iter().position(|known| known == name);
         let number = known.unwrap_or_else(|| {
             if self.names.len() < MOST {
@@ -138,6 +136,18 @@ mod tests {
         let printed = "Timestamp:  1.5    ID:  701    S Rx    DL:  1    00    Channel: can0\n\
             Timestamp:  1.4    ID:  701    S Rx    DL:  1    00    Channel: can3\n";
         assert_eq!(told(printed), "can0:1 can3:1");
+        let trc = ";$FILEVERSION=2.1\n;$COLUMNS=N,O,T,B,I,d,R,L,D\n1 10.0 DT 1 0701 Rx - 1 05\n2 11.0 DT 2 0701 Rx - 1 7F\n\
+            3 12.0 ER 2 - Rx - 5 04 00 08 00 00\n";
+        assert_eq!(told(trc), "1:1 2:2");
+        assert_eq!(
+            told(";$FILEVERSION=1.3\n 1) 10.0 1 Rx 0701 - 1 05\n 2) 11.0 3 Rx 0701 - 1 7F\n"),
+            "1:1 3:1"
+        );
+        let savvy = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1\n10,00000701,false,Rx,0,1,05,\n11,00000701,false,Rx,1,1,7F,\n";
+        assert_eq!(told(savvy), "0:1 1:1");
+        let kvaser = "Chn Identifier Flg   DLC  D0...1...2...3...4...5...6..D7       Time     Dir\n\
+            0    00000701         1  00    1.5 R\n 1    00000701         1  05    1.6 R\n";
+        assert_eq!(told(kvaser), "0:1 1:1");
     }
 
     #[test]

@@ -1,16 +1,43 @@
 //! Logs of programs that print a frame per line in columns: python-can (`print(message)`, `can_logger`), Kvaser CanKing,
-//! Kvaser Memorator (text).
+//! Kvaser Memorator (text), BUSMASTER.
 
 use std::prelude::v1::*;
 
 use od_wire::Instant;
 
+use super::channel::Form;
 use super::record::{Entry, FD, Reader, Record, bases, frame, id};
 use super::stamp;
 
-/// Returns whether this line is one of python-can, or the line over the columns of CanKing or Memorator.
+/// Returns whether this line is one of python-can or BUSMASTER, or the line over the columns of CanKing or Memorator.
 pub(super) fn is_one(line: &str) -> bool {
-    is_printed(line) || is_head(line) || is_memorator(line)
+    is_printed(line) || is_head(line) || is_memorator(line) || is_busmaster(line)
+}
+
+/// Where a line has the name of the channel.
+pub(super) fn form(lines: &[&str]) -> Form {
+    let has = |is: fn(&str) -> bool| lines.iter().any(|line| is(line));
+    if has(is_busmaster) {
+        Form::Word(2)
+    } else if has(is_memorator) {
+        Form::Word(1)
+    } else if has(is_head) {
+        Form::Word(0)
+    } else {
+        Form::Printed
+    }
+}
+
+/// Returns whether this line is a frame of BUSMASTER, whose head is often not pasted.
+fn is_busmaster(line: &str) -> bool {
+    let words: Vec<&str> = line.split_whitespace().take(6).collect();
+    let [time, "Rx" | "Tx", channel, _, kind, _] = words[..] else {
+        return false;
+    };
+    let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
+    time.split(':').filter(|part| is_number(part)).count() == 4
+        && is_number(channel)
+        && matches!(kind, "s" | "x" | "sr" | "xr")
 }
 
 /// Returns whether this line has the names of the columns of Memorator.
@@ -37,6 +64,9 @@ fn is_head(line: &str) -> bool {
 
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let bases = bases(lines);
+    if lines.iter().any(|line| is_busmaster(line)) {
+        return busmaster(lines);
+    }
     let is_from_memorator = lines.iter().any(|line| is_memorator(line));
     let mut is_begun = false;
     Box::new(move |line| {
@@ -166,6 +196,42 @@ fn memorator(line: &str, [base, data_base]: [u32; 2]) -> Result<Entry, String> {
     Ok(Entry::Record(Record::received(at, frame).sent(sent)))
 }
 
+/// `17:02:30:4711 Rx 1 0x27F s 8 20 F4 6C 11 00 20 01 00`: time of day with 100 µs, or the time from the frame before, direction,
+/// channel, CAN-ID, `s` (11 bits) or `x` (29 bits) and `r` (remote frame), length, bytes. The head names the base of the numbers.
+fn busmaster<'t>(lines: &[&'t str]) -> Reader<'t> {
+    let has = |word| lines.iter().any(|line| line.contains(word));
+    let radix = if has("***DEC***") { 10 } else { 16 };
+    let is_relative = has("***RELATIVE MODE***");
+    let mut last = 0;
+    Box::new(move |line| {
+        if line.starts_with("***") {
+            return Ok(Entry::Nothing);
+        }
+        let mut words = line.split_whitespace();
+        let clock = words.next().unwrap_or_default();
+        let (seconds, part) = clock.rsplit_once(':').unwrap_or_default();
+        let time = stamp::time_of_day(&format!("{seconds}.{part}"));
+        let time = time.ok_or_else(|| format!("`{clock}` is not a time"))?;
+        last = if is_relative {
+            time.saturating_add(last)
+        } else {
+            time
+        };
+        let words: Vec<&str> = words.collect();
+        let [direction, _, digits, kind, length, data @ ..] = &words[..] else {
+            return Ok(Entry::Other);
+        };
+        let digits = digits.strip_prefix("0x").unwrap_or(digits);
+        let id = id(digits, radix, kind.starts_with('x'))?;
+        let dlc = length
+            .parse()
+            .map_err(|_| format!("`{length}` is not a valid length"))?;
+        let frame = frame(id, dlc, kind.ends_with('r'), data.iter().copied(), radix)?;
+        let record = Record::received(Instant::from_micros(last), frame);
+        Ok(Entry::Record(record.sent(*direction == "Tx")))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use crate::logs::{What, read};
@@ -248,6 +314,27 @@ DEBUG:canopen.variable:Value of Transmit PDO Communication Parameter 1.COB-ID (0
         );
         let decimal = "    1.500000  1        1793    Rx           2  127   5                                1\n";
         assert_eq!(told(&log("DEC", decimal)), ["1500 701#7F05"]);
+    }
+
+    #[test]
+    fn a_log_of_busmaster_is_read_in_the_base_and_the_times_that_it_names() {
+        let rows = "17:02:30:4711 Rx 1 0x701 s 1 00 \n17:02:30:5711 Tx 1 0x601 s 8 40 18 10 01 00 00 00 00 \n\
+            17:02:30:6711 Rx 2 0x00000123 x 0\n17:02:30:7711 Rx 1 0x701 sr 0\n17:02:61:0000 Rx 1 0x701 s 1 00\n";
+        let expected = [
+            "61350471 701#00",
+            "61350571 601#4018100100000000 sent",
+            "61350671 00000123#",
+            "61350771 701#R",
+        ];
+        let read = told(rows);
+        assert_eq!(read[..4], expected);
+        assert_eq!(read[4], "line 5: `17:02:61:0000` is not a time");
+        let head = "***BUSMASTER Ver 3.2.2***\n***DEC***\n***RELATIVE MODE***\n";
+        let decimal = "00:00:00:5000 Rx 1 1793 s 2 127 5\n00:00:01:0000 Rx 1 1793 s 1 5\n";
+        assert_eq!(
+            told(&format!("{head}{decimal}")),
+            ["500 701#7F05", "1500 701#05"]
+        );
     }
 
     #[test]

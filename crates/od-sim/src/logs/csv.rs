@@ -1,11 +1,12 @@
-//! Logs that are tables with a line of names: GVRET (SavvyCAN), CL2000 and CANedge, Kvaser, IXXAT.
+//! Logs that are tables with a line of names: GVRET (SavvyCAN), CL2000 and CANedge, Kvaser, IXXAT, python-can.
 
 use std::format;
 use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Entry, FD, Reader, Record, bases, frame, id};
+use super::channel::Form;
+use super::record::{Entry, FD, Reader, Record, bases, fields, frame, id};
 use super::stamp;
 
 /// Content of a column. A column with another name is ignored.
@@ -28,17 +29,22 @@ enum Column {
     Length,
     /// All bytes.
     Data,
+    /// All bytes in base 64.
+    Base64,
+    /// Name or number of the bus.
+    Channel,
     /// The first byte; the others follow.
     First,
 }
 
 /// Names of columns in lower case.
-const NAMES: [(&str, Column); 22] = [
+const NAMES: [(&str, Column); 26] = [
     ("time stamp", Column::Time),
     ("timestamp", Column::Time),
     ("timestampepoch", Column::Time),
     ("time", Column::Time),
     ("id", Column::Id),
+    ("arbitration_id", Column::Id),
     ("identifier (hex)", Column::Id),
     ("extended", Column::Extended),
     ("ide", Column::Extended),
@@ -54,6 +60,9 @@ const NAMES: [(&str, Column); 22] = [
     ("data", Column::Data),
     ("databytes", Column::Data),
     ("data (hex)", Column::Data),
+    ("bus", Column::Channel),
+    ("buschannel", Column::Channel),
+    ("channel", Column::Channel),
     ("d0", Column::First),
     ("d1", Column::First),
 ];
@@ -62,11 +71,18 @@ const NAMES: [(&str, Column); 22] = [
 pub(super) fn is_one(line: &str) -> bool {
     let columns = columns(line);
     let has = |wanted| columns.contains(&Some(wanted));
-    // In a log of python-can the bytes are in base 64.
-    !line.contains("arbitration_id")
-        && has(Column::Time)
-        && has(Column::Id)
-        && (has(Column::Data) || has(Column::First))
+    let has_data = [Column::Data, Column::Base64, Column::First].map(has);
+    has(Column::Time) && has(Column::Id) && has_data != [false; 3]
+}
+
+/// Where a table has the name of the bus.
+pub(super) fn form(lines: &[&str]) -> Form {
+    let head = lines.iter().find(|line| is_one(line));
+    let columns = head.map(|head| columns(head)).unwrap_or_default();
+    let place = columns
+        .iter()
+        .position(|column| *column == Some(Column::Channel));
+    place.map_or(Form::Other, Form::Field)
 }
 
 fn columns(line: &str) -> Vec<Option<Column>> {
@@ -78,14 +94,12 @@ fn columns(line: &str) -> Vec<Option<Column>> {
         let is_twice = column.is_some() && found.contains(&column);
         found.push(column.filter(|_| !is_twice));
     }
+    if line.contains("arbitration_id") {
+        let data = found.iter_mut().find(|one| **one == Some(Column::Data));
+        data.into_iter()
+            .for_each(|data| *data = Some(Column::Base64));
+    }
     found
-}
-
-/// Fields between commas, semicolons or tabulators, without their quotes.
-fn fields(line: &str) -> impl Iterator<Item = &str> {
-    let separator = [';', '\t'].into_iter().find(|one| line.contains(*one));
-    line.split(separator.unwrap_or(','))
-        .map(|field| field.trim().trim_matches('"'))
 }
 
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
@@ -144,6 +158,13 @@ fn record(
     let says = place(Column::Extended).or(place(Column::Flags)).is_some();
     let is_long = !says && u32::from_str_radix(digits, base).is_ok_and(|raw| raw > 0x7FF);
     let id = id(digits, base, is(Column::Extended) || flag('X') || is_long)?;
+    let remote = is(Column::Remote) || flag('R');
+    if let Some(text) = field(Column::Base64).filter(|_| !remote) {
+        let data = base64(text).ok_or_else(|| format!("`{text}` is not bytes in base 64"))?;
+        let frame = od_wire::Frame::new(id, &data);
+        let frame = frame.ok_or_else(|| format!("the length {} is more than 8", data.len()))?;
+        return Ok(Entry::Record(Record::received(at, frame)));
+    }
     let bytes = match (place(Column::First), field(Column::Data)) {
         (Some(at), _) => words.get(at..).unwrap_or_default().to_vec(),
         (None, data) => pairs(data.unwrap_or_default())?,
@@ -156,7 +177,6 @@ fn record(
             .map_err(|_| format!("`{word}` is not a valid length"))?,
         None => u8::try_from(bytes.len()).unwrap_or(u8::MAX),
     };
-    let remote = is(Column::Remote) || flag('R');
     let frame = frame(id, dlc, remote, bytes.into_iter(), data_base)?;
     let sent = match field(Column::Direction) {
         Some(word) => word == "1" || word.eq_ignore_ascii_case("tx"),
@@ -167,6 +187,23 @@ fn record(
 
 fn is_set(word: &str) -> bool {
     ["1", "true", "ext"].contains(&word.to_ascii_lowercase().as_str())
+}
+
+/// The bytes of a text in base 64 (RFC 4648, 4).
+fn base64(text: &str) -> Option<Vec<u8>> {
+    const DIGITS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let text = text.trim_end_matches('=');
+    let (mut bits, mut count) = (0, 0);
+    let mut bytes = Vec::new();
+    for digit in text.chars() {
+        bits = bits << 6 & 0xFFFF | DIGITS.find(digit)?;
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            bytes.push((bits >> count) as u8);
+        }
+    }
+    (count < 6).then_some(bytes)
 }
 
 /// The bytes of `4018100100000000` or `40 18 10 01`.
@@ -271,6 +308,20 @@ mod tests {
                 &format!("600 {read}"),
                 "700 701#R",
                 "800 error"
+            ]
+        );
+        let python = "timestamp,arbitration_id,extended,remote,error,dlc,data\n1764085801.123,0x701,0,0,0,1,AA==\n\
+            1764085801.223,0x601,0,0,0,8,QBgQAQAAAAA=\n1764085801.323,0x701,0,1,0,1,\n1764085801.423,0x0,0,0,1,0,\n\
+            1764085801.523,0x123,1,0,0,0,\n1764085801.623,0x123,0,0,0,1,A*==";
+        assert_eq!(
+            told(python),
+            [
+                "0 701#00",
+                &format!("100 {read}"),
+                "200 701#R1",
+                "300 error",
+                "400 00000123#",
+                "line 7: `A*==` is not bytes in base 64"
             ]
         );
         let ixxat = "\"Time\",\"Identifier (hex)\",\"Format\",\"Flags\",\"Data (hex)\"\n\

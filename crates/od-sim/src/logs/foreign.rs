@@ -4,17 +4,7 @@
 const HEAD: usize = 20;
 
 /// Text logs: how a line begins (lower case), the name of the log, and how to get a log that odkit reads.
-const TEXTS: [(&str, &str, &str); 8] = [
-    (
-        "***busmaster",
-        "a BUSMASTER log",
-        "BUSMASTER converts it to ASC (format converter, `Log to ASC`)",
-    ),
-    (
-        "timestamp,arbitration_id,",
-        "a CSV log of python-can",
-        "`can_logconvert` of python-can turns it into a candump log (`can_logconvert FILE.csv FILE.log`)",
-    ),
+const TEXTS: [(&str, &str, &str); 6] = [
     (
         "time   id     dlc data",
         "a trace of CANHacker",
@@ -80,17 +70,6 @@ const BINARIES: [(&[u8], &str, &str); 2] = [
     ),
 ];
 
-/// Returns whether a line in lower case is one of a BUSMASTER log, whose head is often not pasted:
-/// `17:02:30:4711 rx 1 0x27f s 8 …`.
-fn is_busmaster(line: &str) -> bool {
-    let words: Vec<&str> = line.split_whitespace().take(5).collect();
-    let [time, "rx" | "tx", _, id, "s" | "x" | "sr" | "xr"] = words[..] else {
-        return false;
-    };
-    let numbers = || time.split(':').map(str::parse::<u32>);
-    numbers().count() == 4 && numbers().all(|one| one.is_ok()) && id.starts_with("0x")
-}
-
 /// Returns what a file is and how to convert it, if it is a known log that odkit does not read.
 pub(super) fn name(bytes: &[u8]) -> Option<String> {
     let said = |name, way| format!("it is {name}, which odkit does not read; {way}");
@@ -103,9 +82,8 @@ pub(super) fn name(bytes: &[u8]) -> Option<String> {
     let mut known = lines.filter_map(|line| {
         let is_one = |(start, ..): &&(&str, _, _)| line.trim_start().starts_with(start);
         let has = |(word, ..): &&(&str, _, _)| line.contains(word);
-        let part = is_busmaster(line).then_some(&TEXTS[0]);
         let known = TEXTS.iter().find(is_one);
-        known.or_else(|| WORDS.iter().find(has)).or(part)
+        known.or_else(|| WORDS.iter().find(has))
     });
     known.next().map(|(_, name, way)| said(name, way))
 }

@@ -10,6 +10,7 @@ mod channel;
 mod columns;
 mod csv;
 mod foreign;
+mod joined;
 mod pcap;
 mod pcapng;
 mod read;

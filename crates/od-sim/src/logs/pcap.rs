@@ -4,7 +4,8 @@ use std::prelude::v1::*;
 
 use od_wire::{CanId, Frame, Instant};
 
-use super::record::{BusError, ERROR, EXTENDED, Entry, FD, REMOTE, Record, Unread, What};
+use super::channel::Channels;
+use super::record::{BusError, ERROR, EXTENDED, Entry, FD, REMOTE, Record, Unread};
 
 /// The link type of SocketCAN frames in a capture.
 pub(super) const LINK: u16 = 227;
@@ -27,10 +28,12 @@ fn is_can(link: u16) -> bool {
 /// Content of a capture.
 #[derive(Default)]
 pub(super) struct Capture {
-    pub(super) records: Vec<Record>,
+    /// Records, each with the number of its channel.
+    pub(super) records: Vec<(Record, u8)>,
     pub(super) skipped: Vec<Unread>,
     /// Packets of other protocols.
     pub(super) others: usize,
+    pub(super) channels: Channels,
     /// Packets so far.
     count: u32,
 }
@@ -41,8 +44,8 @@ impl Capture {
         self.count = self.count.saturating_add(1);
     }
 
-    /// Adds a packet of an interface with this link type.
-    pub(super) fn packet(&mut self, at: Instant, link: u16, bytes: &[u8]) {
+    /// Adds a packet of an interface with this link type and name.
+    pub(super) fn packet(&mut self, at: Instant, link: u16, name: &str, bytes: &[u8]) {
         self.begin();
         let half = |at: usize| Some(u16::from_be_bytes(bytes.get(at..at + 2)?.try_into().ok()?));
         let (protocol, sent, start) = match link {
@@ -54,13 +57,31 @@ impl Capture {
         let frame = bytes.get(start..).unwrap_or_default();
         match protocol {
             Some(CAN) if !is_fd(frame) => match socketcan(at, frame) {
-                Some(Entry::Record(record)) => self.records.push(record.sent(sent)),
+                Some(Entry::Record(record)) => {
+                    // A capture on all interfaces has the number of the interface in this header.
+                    let own = bytes.get(4..8).filter(|_| link == COOKED_2);
+                    let own = own.map(|number| {
+                        number
+                            .iter()
+                            .fold(0, |all, byte| all << 8 | u32::from(*byte))
+                    });
+                    match own {
+                        Some(number) => self.add(record.sent(sent), &number.to_string()),
+                        None => self.add(record.sent(sent), name),
+                    }
+                }
                 Some(_) => self.others += 1,
                 None => self.skip("it is too short for a CAN frame".into()),
             },
             Some(CAN | CAN_FD) => self.skip(FD.into()),
             _ => self.others += 1,
         }
+    }
+
+    /// Adds a record of the channel with this name.
+    pub(super) fn add(&mut self, record: Record, channel: &str) {
+        let number = self.channels.number(channel);
+        self.records.push((record, number));
     }
 
     /// Notes that the current packet cannot be read.
@@ -159,7 +180,7 @@ fn records(file: File<'_>, nanos: bool, link: u16) -> Result<Capture, String> {
         };
         let micros = u64::from(fraction) / if nanos { 1000 } else { 1 };
         let time = Instant::from_micros(u64::from(seconds) * 1_000_000 + micros);
-        capture.packet(time, link, bytes);
+        capture.packet(time, link, "", bytes);
         at = end;
     }
     capture.finish(None)
@@ -173,10 +194,7 @@ fn socketcan(at: Instant, bytes: &[u8]) -> Option<Entry> {
     if raw & ERROR != 0 {
         let error = BusError::of_socketcan(raw, data.get(..8)?.try_into().ok()?);
         return Some(match error {
-            Some(error) => Entry::Record(Record {
-                what: What::Error(error),
-                ..Record::error(at)
-            }),
+            Some(error) => Entry::Record(Record::of(at, error)),
             None => Entry::Other,
         });
     }

@@ -18,6 +18,8 @@ struct Interface {
     link: u16,
     /// Ticks per second.
     resolution: f64,
+    /// Its name, such as `can0`; without one, its number.
+    name: String,
 }
 
 /// The records of a pcapng file; `None` if the bytes are not one.
@@ -45,10 +47,16 @@ fn records(mut file: File<'_>) -> Result<Capture, String> {
             return capture.finish(Some(cut(at)));
         }
         match (file.word(at), file.half(at + 8), file.word(at + 8)) {
-            (Some(INTERFACE), Some(link), _) => interfaces.push(Interface {
-                link,
-                resolution: resolution(file, at + 16, end - 4),
-            }),
+            (Some(INTERFACE), Some(link), _) => {
+                let option = |code| option(file, code, at + 16, end - 4);
+                let name = option(IF_NAME).map(|name| String::from_utf8_lossy(name));
+                let name = name.map(|name| name.trim_end_matches('\0').to_owned());
+                interfaces.push(Interface {
+                    link,
+                    resolution: resolution(option(IF_TSRESOL)),
+                    name: name.unwrap_or_else(|| interfaces.len().to_string()),
+                });
+            }
             (Some(PACKET), _, Some(owner)) => match interfaces.get(owner as usize) {
                 Some(owner) => packet(&mut capture, file, at, end, owner),
                 None => capture.others += 1,
@@ -74,30 +82,34 @@ fn packet(capture: &mut Capture, file: File<'_>, at: usize, end: usize, owner: &
     let micros = ticks as f64 / owner.resolution * 1e6;
     let bytes = bytes.get(..length as usize).unwrap_or(bytes);
     let time = Instant::from_micros(micros.round() as u64);
-    capture.packet(time, owner.link, bytes);
+    capture.packet(time, owner.link, &owner.name, bytes);
 }
 
-/// Ticks per second of an interface: its option `if_tsresol`, otherwise a million.
-fn resolution(file: File<'_>, from: usize, to: usize) -> f64 {
+/// Codes of the options of an interface.
+const IF_NAME: u16 = 2;
+const IF_TSRESOL: u16 = 9;
+
+/// The value of an option of an interface.
+fn option<'b>(file: File<'b>, wanted: u16, from: usize, to: usize) -> Option<&'b [u8]> {
     let mut at = from;
     while at + 4 <= to {
-        let (Some(code), Some(length)) = (file.half(at), file.half(at + 2)) else {
-            break;
-        };
-        match (code, file.bytes.get(at + 4)) {
-            (9, Some(value)) if length > 0 => {
-                let power = i32::from(value & 0x7F);
-                return if value & 0x80 != 0 {
-                    2f64.powi(power)
-                } else {
-                    10f64.powi(power)
-                };
-            }
-            (0, _) => break,
-            _ => at += 4 + usize::from(length).next_multiple_of(4),
+        let (code, length) = (file.half(at)?, usize::from(file.half(at + 2)?));
+        match code {
+            0 => break,
+            _ if code == wanted => return file.bytes.get(at + 4..at + 4 + length),
+            _ => at += 4 + length.next_multiple_of(4),
         }
     }
-    1e6
+    None
+}
+
+/// Ticks per second: a power of 10 or, with bit 7, of 2; without the option a million.
+fn resolution(option: Option<&[u8]>) -> f64 {
+    match option {
+        Some([value, ..]) if value & 0x80 != 0 => 2f64.powi(i32::from(value & 0x7F)),
+        Some([value, ..]) => 10f64.powi(i32::from(*value)),
+        _ => 1e6,
+    }
 }
 
 /// A section with one interface, times in microseconds.

@@ -6,6 +6,7 @@ use std::prelude::v1::*;
 use od_wire::Instant;
 
 use super::channel::{Channels, Form, apart};
+use super::joined::joined;
 use super::pcap::Capture;
 use super::record::{Entry, Reader, Record, Unread, What};
 use super::{adapters, asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc, typed};
@@ -23,7 +24,7 @@ pub struct Log {
     /// Whether the log has no times, as `candump` prints it without `-t`, or an adapter of slcan sends it. All records then
     /// have time 0.
     pub lacks_times: bool,
-    /// Names of the channels if there are two and more: interfaces of `candump` and python-can, channels of an ASC.
+    /// Names of the channels if there are two and more: interfaces, or numbers of buses.
     pub channels: Vec<String>,
     /// The number of the channel of each record.
     pub(super) numbers: Vec<u8>,
@@ -43,8 +44,8 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 /// The format of a text must show within this number of lines.
 const HEAD: usize = 200;
 
-/// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng; CSV of SavvyCAN, CL2000, CANedge, Kvaser or IXXAT; what
-/// python-can prints, Kvaser CanKing, or Kvaser Memorator (text); lines of slcan or socketcand; commands of `cansend`;
+/// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng; CSV of SavvyCAN, CL2000, CANedge, Kvaser, IXXAT or python-can;
+/// what python-can prints, Kvaser CanKing, Kvaser Memorator (text), or BUSMASTER; lines of slcan or socketcand; commands of `cansend`;
 /// frames as people type them, such as `0x601: 40 00 10 00 00 00 00 00`.
 ///
 /// # Errors
@@ -56,18 +57,18 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             records,
             skipped,
             others,
+            channels,
             ..
         } = capture?;
         return Ok(Log {
             others,
-            ..finish(
-                records.into_iter().map(|record| (record, 0)).collect(),
-                skipped,
-            )
+            channels: channels.names(),
+            ..finish(records, skipped)
         });
     }
     let text = plain(&decoded(bytes));
-    let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
+    let lines = joined(lines(text.trim_start_matches('\u{feff}')).collect());
+    let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
     let mut lacks_times = is_untimed(&lines);
     let mut is_typed = false;
     let (mut reader, form) = match choose(&lines, lacks_times) {
@@ -91,7 +92,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     let mut skipped = Vec::new();
     let mut others = 0;
     let may_be_deltas = form == Form::Candump || is_typed;
-    let mut channels = Channels::new(form);
+    let mut channels = Channels::default();
     for (line, text) in (1..).zip(&lines) {
         // A log in an issue is often between two fences of Markdown, or below the command that wrote it.
         if text.trim().is_empty() || text.starts_with("```") || is_command(text) {
@@ -103,7 +104,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             reader(text)
         };
         match read {
-            Ok(Entry::Record(record)) => records.push((record, channels.number(text))),
+            Ok(Entry::Record(record)) => records.push((record, channels.number(form.name(text)))),
             Ok(Entry::Other) => others += 1,
             Ok(Entry::Nothing) => {}
             Err(why) => skipped.push(Unread {
@@ -231,16 +232,16 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<(Reader<'t>, Form)
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
     // The rows of some of them look like those of an ASC log.
     if head().any(columns::is_one) {
-        return Some((columns::reader(lines), Form::Columns));
+        return Some((columns::reader(lines), columns::form(lines)));
     }
     if head().any(trc::is_one) {
-        return Some((trc::reader(lines), Form::Other));
+        return Some((trc::reader(lines), trc::form(lines)));
     }
     if head().any(asc::is_one) {
         return Some((asc::reader(lines), Form::Asc));
     }
     if head().any(csv::is_one) {
-        return Some((csv::reader(lines), Form::Other));
+        return Some((csv::reader(lines), csv::form(lines)));
     }
     if head().any(adapters::is_one) {
         return Some((adapters::reader(), Form::Other));

@@ -97,10 +97,15 @@ impl Record {
 
     /// An error frame.
     pub(super) const fn error(at: Instant) -> Self {
+        Self::of(at, BusError::Frame)
+    }
+
+    /// An error.
+    pub(super) const fn of(at: Instant, error: BusError) -> Self {
         Self {
             at,
             sent: false,
-            what: What::Error(BusError::Frame),
+            what: What::Error(error),
         }
     }
 
@@ -152,6 +157,13 @@ pub(super) fn frame<'w>(
             .ok_or_else(|| format!("the data is not {dlc} bytes"))?;
     }
     Ok(Frame::with_dlc(id, data, dlc))
+}
+
+/// Fields between commas, semicolons or tabulators, without their quotes.
+pub(super) fn fields(line: &str) -> impl Iterator<Item = &str> {
+    let separator = [';', '\t'].into_iter().find(|one| line.contains(*one));
+    line.split(separator.unwrap_or(','))
+        .map(|field| field.trim().trim_matches('"'))
 }
 
 /// Bases of CAN-ID and data, by the settings at the head of a log of Kvaser: `Format of id field: DEC`.

@@ -4,7 +4,8 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Entry, FD, Reader, Record, frame, id};
+use super::channel::Form;
+use super::record::{BusError, Entry, FD, Reader, Record, frame, id};
 
 /// Returns whether this line shows that the text is a TRC log.
 pub(super) fn is_one(line: &str) -> bool {
@@ -12,6 +13,44 @@ pub(super) fn is_one(line: &str) -> bool {
         || header(line, "STARTTIME").is_some()
         || numbered(line).is_some()
         || is_second(line)
+}
+
+/// States of the controller in the four bytes of a status: warning limit (`BUSHEAVY`), error passive, bus-off.
+const STATES: [(u32, BusError); 3] = [
+    (0x8, BusError::Warning),
+    (0x4_0000, BusError::Passive),
+    (0x10, BusError::BusOff),
+];
+
+/// The number of a state of the controller; `None`: an error frame.
+pub(super) fn status(error: BusError) -> Option<u32> {
+    let mut all = STATES.iter();
+    all.find_map(|(bits, state)| (*state == error).then_some(*bits))
+}
+
+/// A status whose four bytes end a line, perhaps with a name after them: `… 00 00 00 08 BUSHEAVY`.
+fn of_status(at: Instant, line: &str) -> Entry {
+    let byte = |word: &str| {
+        u8::from_str_radix(word, 16)
+            .ok()
+            .filter(|_| word.len() == 2)
+    };
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let mut fours = words.windows(4).rev();
+    let bits = fours.find_map(|four| {
+        let [a, b, c, d] = [
+            byte(four[0])?,
+            byte(four[1])?,
+            byte(four[2])?,
+            byte(four[3])?,
+        ];
+        Some(u32::from_be_bytes([a, b, c, d]))
+    });
+    let mut states = STATES.iter().rev();
+    let state = states.find(|(state, _)| bits.is_some_and(|bits| bits & state != 0));
+    state.map_or(Entry::Other, |(_, state)| {
+        Entry::Record(Record::of(at, *state))
+    })
 }
 
 /// Returns whether a line is one of version 2 with its usual columns, as in a log without its first lines:
@@ -50,6 +89,20 @@ fn millis(word: &str) -> Option<Instant> {
     Some(Instant::from_micros((millis * 1000.0).round() as u64))
 }
 
+/// Where a line has the number of the bus: a column of version 2, and of the versions 1.2 and 1.3 the word after the time.
+pub(super) fn form(lines: &[&str]) -> Form {
+    let value = |name| lines.iter().find_map(|line| header(line, name));
+    match value("FILEVERSION") {
+        Some("1.2" | "1.3") => Form::Word(2),
+        Some(version) if version.starts_with("2.") => {
+            let columns = value("COLUMNS").unwrap_or(COLUMNS);
+            let place = columns.split(',').position(|column| column.trim() == "B");
+            place.map_or(Form::Other, Form::Word)
+        }
+        _ => Form::Other,
+    }
+}
+
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let version = lines.iter().find_map(|line| header(line, "FILEVERSION"));
     let (major, minor) = version
@@ -80,7 +133,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
             return Ok(Entry::Record(Record::error(at)));
         }
         if direction.starts_with("warng") {
-            return Ok(Entry::Other);
+            return Ok(of_status(at, line));
         }
         let id = words.next().unwrap_or_default();
         let mut words: Vec<&str> = words.skip(usize::from(has_reserved)).collect();
@@ -92,7 +145,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
                 .first()
                 .is_some_and(|word| word.trim_start_matches('0') == "4")
         {
-            return Ok(Entry::Other);
+            return Ok(of_status(at, line));
         }
         let remote = words
             .get(1)
@@ -139,7 +192,8 @@ fn second<'t>(lines: &[&'t str]) -> Reader<'t> {
             "ER" => return Ok(Entry::Record(Record::error(at))),
             "DT" => false,
             "RR" => true,
-            "ST" | "EC" | "EV" => return Ok(Entry::Other),
+            "ST" => return Ok(of_status(at, line)),
+            "EC" | "EV" => return Ok(Entry::Other),
             "FD" | "FB" | "FE" | "BI" => return Err(FD.into()),
             other => return Err(format!("`{other}` is not a valid type of message")),
         };

@@ -122,7 +122,8 @@ fn untimed(line: &str) -> Option<Typed> {
         } else {
             let digit = word.parse::<u8>().ok().filter(|_| word.len() == 1);
             length = digit.filter(|length| *length <= 8).or(length);
-            is_remote |= ["rtr", "remote"].contains(&&*word.to_lowercase());
+            let is_named = ["rtr", "remote"].contains(&&*word.to_lowercase());
+            is_remote |= is_named && !piece.is_denied();
             is_sent(word);
         }
         pieces.next();
@@ -186,6 +187,13 @@ impl Piece<'_> {
             && matches!(after.next(), Some('0'..='7'))
             && matches!(after.next(), Some(']' | '.'));
         is_name || is_number && (begins && ends || is_range)
+    }
+
+    /// Returns whether the value of a field is no: `RTR = NO`, `rtr: 0`.
+    fn is_denied(&self) -> bool {
+        let value = self.after.trim_start().strip_prefix(['=', ':']);
+        let value = value.map(|value| value.trim_start().to_lowercase());
+        value.is_some_and(|value| ["no", "0", "false"].iter().any(|no| value.starts_with(no)))
     }
 
     /// A CAN-ID of two marked digits, which could be a byte: a separator follows.

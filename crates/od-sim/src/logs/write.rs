@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::prelude::v1::*;
 
 use super::record::{ERROR, Record, What};
-use super::{candump, pcapng};
+use super::{asc, candump, pcapng, trc};
 
 /// File format of a log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -128,11 +128,18 @@ Begin Triggerblock Thu Jan 1 12:00:00.000 am 1970
 fn as_asc(text: &mut String, records: &[Record]) -> std::fmt::Result {
     text.push_str(ASC_HEAD);
     for Record { at, sent, what } in records {
-        write!(text, "{:>11} 1  ", format!("{at:?}"))?;
-        let What::Frame(frame) = what else {
-            text.push_str("ErrorFrame\n");
-            continue;
+        write!(text, "{:>11} ", format!("{at:?}"))?;
+        let frame = match what {
+            What::Frame(frame) => frame,
+            What::Error(error) => {
+                match asc::status(*error) {
+                    Some(status) => writeln!(text, "CAN 1 Status:{status}")?,
+                    None => text.push_str("1  ErrorFrame\n"),
+                }
+                continue;
+            }
         };
+        text.push_str("1  ");
         let x = if frame.id().is_extended() { "x" } else { "" };
         let id = format!("{:X}{x}", frame.id().raw());
         let direction = if *sent { "Tx" } else { "Rx" };
@@ -164,9 +171,19 @@ fn as_trc(text: &mut String, records: &[Record]) -> std::fmt::Result {
         let micros = at.as_micros();
         let millis = format!("{}.{:03}", micros / 1000, micros % 1000);
         write!(text, "{number:>7} {millis:>13} ")?;
-        let What::Frame(frame) = what else {
-            text.push_str("ER 1         - Rx -  5    04 00 08 00 00\r\n");
-            continue;
+        let frame = match what {
+            What::Frame(frame) => frame,
+            What::Error(error) => {
+                match trc::status(*error) {
+                    Some(status) => {
+                        text.push_str("ST 1         - Rx -  4   ");
+                        bytes(text, &status.to_be_bytes())?;
+                        text.push_str("\r\n");
+                    }
+                    None => text.push_str("ER 1         - Rx -  5    04 00 08 00 00\r\n"),
+                }
+                continue;
+            }
         };
         let kind = if frame.is_remote() { "RR" } else { "DT" };
         let direction = if *sent { "Tx" } else { "Rx" };

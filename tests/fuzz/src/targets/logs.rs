@@ -154,13 +154,15 @@ fn run(input: &[u8]) {
     }
 }
 
-/// The records that a format can keep: candump and pcapng have no direction, the others do not say which error it was.
+/// The records that a format can keep: candump and pcapng have no direction, the others do not say why a frame was destroyed.
 fn kept(format: Format, log: &Log) -> Vec<Record> {
     let is_of_socketcan = matches!(format, Format::Candump | Format::Pcapng);
     let kept = log.records.iter().map(|record| Record {
         sent: record.sent && !is_of_socketcan,
         what: match record.what {
-            What::Error(_) if !is_of_socketcan => What::Error(BusError::Frame),
+            What::Error(BusError::NoAcknowledge) if !is_of_socketcan => {
+                What::Error(BusError::Frame)
+            }
             what => what,
         },
         ..*record

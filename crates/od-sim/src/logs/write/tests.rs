@@ -30,12 +30,19 @@ fn records() -> Vec<Record> {
         frame(200_000, true, remote),
         frame(300_000, false, Frame::standard(0x80, &[])),
         frame(1_500_001, false, Frame::of(extended, &[0xDE, 0xAD])),
-        Record {
-            at: Instant::from_micros(1_600_000),
-            sent: false,
-            what: What::Error(BusError::Frame),
-        },
+        error(1_600_000, BusError::Frame),
+        error(1_700_000, BusError::Warning),
+        error(1_800_000, BusError::Passive),
+        error(1_900_000, BusError::BusOff),
     ]
+}
+
+fn error(at: u64, error: BusError) -> Record {
+    Record {
+        at: Instant::from_micros(at),
+        sent: false,
+        what: What::Error(error),
+    }
 }
 
 #[test]
@@ -70,6 +77,9 @@ fn written_logs_are_byte_for_byte_the_same() {
 (0.300000) can0 080#
 (1.500001) can0 1F334455#DEAD
 (1.600000) can0 20000008#0000040000000000
+(1.700000) can0 20000004#000C000000000000
+(1.800000) can0 20000004#0030000000000000
+(1.900000) can0 20000040#0000000000000000
 "
     );
     let asc = text(Format::Asc);
@@ -81,6 +91,10 @@ fn written_logs_are_byte_for_byte_the_same() {
     assert_eq!(lines[3], "   0.200000 1  701             Tx   r 1");
     assert_eq!(lines[5], "   1.500001 1  1F334455x       Rx   d 2 DE AD");
     assert_eq!(lines[6], "   1.600000 1  ErrorFrame");
+    assert_eq!(
+        lines[8],
+        "   1.800000 CAN 1 Status:chip status error passive"
+    );
     let trc = text(Format::Trc);
     let lines: Vec<_> = trc.lines().skip(8).collect();
     assert_eq!(
@@ -91,6 +105,10 @@ fn written_logs_are_byte_for_byte_the_same() {
     assert_eq!(
         lines[5],
         "      6      1500.001 DT 1  1F334455 Rx -  2    DE AD"
+    );
+    assert_eq!(
+        lines[8],
+        "      9      1800.000 ST 1         - Rx -  4    00 04 00 00"
     );
 }
 
@@ -178,24 +196,12 @@ fn an_unreadable_log_is_an_error_that_names_it() {
             "it is an MDF log (MF4), which odkit does not read; export it as ASC",
         ),
         (
-            b"***BUSMASTER Ver 3.2.2***\n***HEX***\n",
-            "it is a BUSMASTER log",
-        ),
-        (
-            b"17:02:30:4711 Rx 1 0x27F s 8 20 F4 6C 11 00 20 01 00 \n17:02:31:3601 Rx 1 0x720 s 1 7F \n",
-            "it is a BUSMASTER log",
-        ),
-        (
             b"SQLite format 3\0",
             "it is a database, such as python-can writes",
         ),
         (
             b"No.     Time           Source\n1 0.0\n",
             "it is a text of Wireshark",
-        ),
-        (
-            b"timestamp,arbitration_id,extended\n0.1,0x701,0\n",
-            "it is a CSV log of python-can",
         ),
         (
             b"Time   ID     DLC Data                    Comment\n",
@@ -390,4 +396,26 @@ fn a_long_frame_of_candump_is_named() {
         "{:?}",
         log.skipped
     );
+}
+
+/// A capture with two interfaces, of which one has a name.
+#[test]
+fn an_interface_of_a_capture_is_a_channel() {
+    let block = |kind: u32, body: &[u8]| {
+        let length = (12 + body.len() as u32).to_le_bytes();
+        [&kind.to_le_bytes(), &length, body, &length].concat()
+    };
+    let mut all = Format::Pcapng.head();
+    let name = b"\xE3\0\0\0\0\0\0\0\x02\0\x04\0can1\0\0\0\0";
+    all.extend(block(1, name));
+    for interface in [0u8, 1, 1] {
+        let mut packet = vec![interface, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+        packet.extend([16, 0, 0, 0, 16, 0, 0, 0]);
+        packet.extend([0, 0, 7, 5, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+        all.extend(block(6, &packet));
+    }
+    let mut log = read(&all).expect("a log");
+    let told = log.take_channels().into_iter();
+    let told: Vec<_> = told.map(|(name, records)| (name, records.len())).collect();
+    assert_eq!(told, [("0".into(), 1), (String::from("can1"), 2)]);
 }
