@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use od_sim::dbc::Database;
+use od_sim::diagnose::other_protocol;
 use od_sim::logs::{self, Log, What};
 
 use crate::bus::names::Names;
@@ -74,6 +75,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         if let [first, .., last] = &log.channels[..] {
             let count = log.channels.len();
             note!("{path}: the frames of {count} channels ({first} to {last}) are shown together");
+        }
+        if let Some(why) = other_protocol(&log.records) {
+            note!("{path}: this is not CANopen: {why}");
         }
         skipped += log.skipped.len();
         for record in &log.records {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use od_model::{Dictionary, Visible};
 use od_runtime::NodeId;
-use od_sim::diagnose::{BusFacts, Incident, diagnose, rules_with_times};
+use od_sim::diagnose::{BusFacts, Incident, diagnose, other_protocol, rules_with_times};
 use od_sim::logs::{Record, What};
 use od_tools::Error;
 use od_tools::interrupt::Interruptible;
@@ -97,6 +97,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             dictionary: Some(&of),
         };
         let incidents = diagnose(records, known);
+        let other = other_protocol(records);
+        if let Some(why) = other {
+            note!("{name}: this is not CANopen: {why}");
+        }
         count += incidents.len();
         let lines = lines(args, records)?;
         match args.format {
@@ -105,7 +109,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             Format::Json => {
                 let incidents: Vec<Value> =
                     incidents.iter().map(|one| in_json(one, &lines)).collect();
-                all.push(json!({ "log": name, "records": records.len(), "incidents": incidents }));
+                all.push(json!({ "log": name, "records": records.len(), "other_protocol": other, "incidents": incidents }));
             }
         }
     }
@@ -202,7 +206,7 @@ fn markdown(name: &str, records: &[Record], incidents: &[Incident], lines: &[Str
         out.push(String::new());
         for (place, cause) in (1..).zip(&incident.causes) {
             out.push(format!(
-                "{place}. {}. *Check* {}",
+                "{place}. {}. *Check* {}.",
                 cell(&cause.text),
                 cell(&cause.check)
             ));

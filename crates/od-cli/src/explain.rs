@@ -2,6 +2,7 @@
 
 use od_eds::check::{Fixability, Rule, all, pair, rule};
 use od_eds::tools::tool_of;
+use od_sim::diagnose::wrapped;
 
 use crate::failure::Failure;
 use crate::output;
@@ -12,7 +13,8 @@ mod example;
 /// Explain a rule by its code: why it matters, with an example before and after; or an SDO abort code, or an EMCY error code
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Codes: of a rule, such as `E0412`, of an SDO abort, such as `0x06070010`, or of an EMCY message, such as `8130h`
+    /// Codes: of a rule, such as `E0412`, of an SDO abort, such as `0x06070010`, or of an EMCY message, such as `8130h`; or the
+    /// name of a rule of `odkit diagnose`
     #[arg(required_unless_present = "list", value_name = "CODE")]
     codes: Vec<String>,
     /// List all rules
@@ -26,6 +28,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let page = |code: &&String| {
         let page = rule(code).map(text).or_else(|| codes::page(code));
+        let page = page.or_else(|| diagnosis(code));
         page.ok_or_else(|| unknown(code))
     };
     // `emcy 8130`: the number says what it is.
@@ -46,7 +49,24 @@ fn row(rule: &Rule) -> String {
     format!("{code}  {severity:<7}  {fix:<14}  {}\n", rule.title)
 }
 
+/// A rule of `odkit diagnose`, by the name that its reports in JSON have.
+fn diagnosis(name: &str) -> Option<String> {
+    let mut all = od_sim::diagnose::rules();
+    let (name, title) = all.find(|(known, _)| *known == name)?;
+    Some(format!(
+        "{name} (rule of `odkit diagnose`): {title}\n\ndocs/how-to/diagnose-a-log.md lists what it finds, and the causes.\n"
+    ))
+}
+
 fn unknown(code: &str) -> Failure {
+    let is_rule = matches!(code.as_bytes(), [letter, digits @ ..]
+        if letter.is_ascii_alphabetic() && digits.len() == 4 && digits.iter().all(u8::is_ascii_digit));
+    if !is_rule {
+        return Failure::Usage(format!(
+            "`{code}` is not a code of a rule (E0412), of an SDO abort (0x06070010) or of an EMCY message (8130h); \
+             `odkit explain --list` lists all rules"
+        ));
+    }
     // The digits identify a rule; only the letter may be wrong.
     let digits = code.trim_start_matches(|c: char| c.is_ascii_alphabetic());
     let near = all().find(|rule| &rule.code[1..] == digits);
@@ -101,25 +121,6 @@ fn text(rule: &Rule) -> String {
     text
 }
 
-/// Wraps words at about this width.
-fn wrapped(text: &str, width: usize) -> String {
-    let mut out = String::new();
-    let mut column = 0;
-    for word in text.split_whitespace() {
-        let long = word.chars().count();
-        if column > 0 && column + 1 + long > width {
-            out.push('\n');
-            column = 0;
-        } else if column > 0 {
-            out.push(' ');
-            column += 1;
-        }
-        out.push_str(word);
-        column += long;
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,10 +142,5 @@ mod tests {
             assert!(own.count() > 4, "{page}");
             assert!(page.lines().any(|line| line.starts_with("    ")), "{page}");
         }
-    }
-
-    #[test]
-    fn text_is_wrapped_between_words() {
-        assert_eq!(wrapped("a bb ccc dddd", 6), "a bb\nccc\ndddd");
     }
 }

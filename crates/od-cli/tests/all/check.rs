@@ -258,6 +258,14 @@ fn explain_has_a_page_for_each_code() {
     let codes = odkit(&["explain", "emcy", "8130h", "0x06070010"], "");
     assert!(codes.out.starts_with("8130h life guard"), "{}", codes.out);
     assert!(codes.out.contains("\n06070010h length"), "{}", codes.out);
+    let fault = odkit(&["explain", "heartbeat-lost"], "");
+    assert!(fault.out.contains("A heartbeat stops"), "{}", fault.out);
+    let word = odkit(&["explain", "heartbeat"], "");
+    assert!(
+        word.err.contains("not a code of a rule (E0412), of an SDO"),
+        "{}",
+        word.err
+    );
     assert_eq!(odkit(&["explain", "E9999"], "").code, 2);
     assert_eq!(odkit(&["explain"], "").code, 2);
 }

@@ -55,7 +55,7 @@ fn case(text: &str) -> Case<'_> {
     case
 }
 
-/// `FRAME FROM TO PERIOD JITTER`, in ms with or without a decimal point. Each frame is late by a random time of up to two jitters.
+/// `FRAME FROM TO PERIOD JITTER` (`error`: an error frame), in ms with or without a decimal point. Each frame is late by a random time of up to two jitters.
 fn foreign(text: &str) -> Vec<Record> {
     let words: Vec<&str> = text.split(' ').collect();
     let [frame, from, to, period, jitter] = words[..] else {
@@ -63,7 +63,10 @@ fn foreign(text: &str) -> Vec<Record> {
     };
     let number = |word: &str| (word.parse::<f64>().expect("a number") * 1000.0) as u64;
     let (from, to, period, jitter) = (number(from), number(to), number(period), number(jitter));
-    let frame = od_sim::logs::candump::parse_frame(frame).expect("a frame");
+    let what = match frame {
+        "error" => What::Error(BusError::Frame),
+        frame => What::Frame(parse_frame(frame).expect("a frame")),
+    };
     let mut all = Vec::new();
     let mut seed = 7u64;
     for at in (from..to).step_by(period as usize) {
@@ -75,7 +78,7 @@ fn foreign(text: &str) -> Vec<Record> {
         } else {
             (seed >> 33) % (2 * jitter)
         };
-        all.push(record(at + off, What::Frame(frame)));
+        all.push(record(at + off, what));
     }
     all
 }
@@ -231,9 +234,9 @@ fn each_rule_has_a_log_that_looks_like_its_fault() {
     }
 }
 
-/// The cause names the mistake of the client.
+/// The cause names what the log knows of it.
 #[test]
-fn a_refusal_names_the_mistake_of_the_client() {
+fn a_cause_names_what_the_log_shows() {
     let all = cases(FAULTS);
     let told = |title: &str| {
         let case = all
@@ -252,6 +255,11 @@ fn a_refusal_names_the_mistake_of_the_client() {
         (
             "insists on a block transfer",
             "does not support block transfer",
+        ),
+        ("leaves Operational after an EMCY", "4310h, temperature"),
+        (
+            "its client aborts",
+            "the SDO server of node 5 does not alternate",
         ),
     ] {
         assert!(told(title).contains(part), "{}", told(title));
@@ -280,11 +288,13 @@ fn the_command_shows_causes_and_sets_the_exit_code() {
     for part in [
         "1 incident in 113 records",
         "1. node 5 restarts 4 times without a command",
-        "cause 1: the firmware of node 5 fails, and its watchdog restarts it, every 2000 ms",
+        "cause 1: the firmware of node 5 fails, and its watchdog restarts it, every\n            2000 ms\n",
         "705  00                       NMT EC node 5: boot-up",
     ] {
         assert!(text.out.contains(part), "{part}\n{}", text.out);
     }
+    let own = text.out.lines().filter(|line| !line.contains("NMT"));
+    assert!(own.clone().all(|line| line.len() <= 80), "{}", text.out);
     assert_eq!(run(&["--check"]).code, 1);
     let json = run(&["--format", "json"]);
     let json: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
@@ -319,6 +329,24 @@ fn the_command_shows_causes_and_sets_the_exit_code() {
         json["logs"][0]["incidents"][0]["begin_us"].is_null(),
         "{json}"
     );
+}
+
+#[test]
+fn a_log_of_another_protocol_is_named() {
+    let log = "(0.1) can0 0CF00400#F07D7D0020000000\n(0.2) can0 18FEF100#FF\n";
+    for command in ["diagnose", "decode"] {
+        let one = odkit(&[command, "-"], log);
+        assert_eq!(one.code, 0, "{}", one.err);
+        assert!(
+            one.err
+                .contains("this is not CANopen: all CAN-IDs have 29 bits"),
+            "{}",
+            one.err
+        );
+    }
+    let json = odkit(&["diagnose", "-", "--format", "json"], log).out;
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert!(json["logs"][0]["other_protocol"].is_string(), "{json}");
 }
 
 /// A node ID on two buses is two nodes.

@@ -122,6 +122,8 @@ pub(super) struct Exchange {
     pub(super) end: Seen,
     /// Responses after the end and before the next request.
     pub(super) extra: Vec<Seen>,
+    /// The client's abort, with its code.
+    pub(super) aborted: Option<(Seen, u32)>,
 }
 
 /// Facts about the frames of one node ID.
@@ -147,6 +149,8 @@ pub(super) struct Node {
     is_pending: bool,
     /// The client has aborted, and no request came since.
     is_aborted: bool,
+    /// The client has sent segments of a block, without a response so far.
+    has_segments: bool,
 }
 
 impl Node {
@@ -223,7 +227,7 @@ impl<'a> Facts<'a> {
                 What::Error(_) => facts.errors.push(seen),
                 What::Frame(frame) => {
                     let len = bits(frame).len() as u32 + 3;
-                    lengths.push((seen.at, len));
+                    lengths.push((seen.at, len, *frame));
                     let window = (seen.at.micros_since(facts.begin) / WINDOW) as usize;
                     // A log of a year has 315 million windows: only those up to an hour are measured.
                     if window < 36_000 {
@@ -311,10 +315,13 @@ impl<'a> Facts<'a> {
         own.map(|(_, code, _)| *code)
     }
 
-    /// Returns whether a reset command came to a node between two times.
+    /// Returns whether a command to a node between two times makes it start again: NMT, or 1F51h, which starts and stops a program
+    /// (CiA 302-3); a bootloader is a program, too.
     pub(super) fn is_reset(&self, node: u8, from: Instant, to: Instant) -> bool {
-        self.commands_to(node, from, to)
-            .any(|code| matches!(code, 0x81 | 0x82))
+        let mut codes = self.commands_to(node, from, to);
+        let facts = self.nodes.get(&node);
+        codes.any(|code| matches!(code, 0x81 | 0x82))
+            || facts.is_some_and(|facts| facts.is_written(0x1F51, from, to))
     }
 
     /// Returns whether frames of other nodes were logged between two times, so the log continued.
@@ -366,11 +373,18 @@ impl Node {
             return;
         };
         match message {
-            Message::Request(Request::Abort { .. }) => {
+            Message::Request(Request::Abort { code, .. }) => {
                 self.is_aborted = true;
+                if let Some(last) = self.exchanges.last_mut() {
+                    last.aborted.get_or_insert((seen, code));
+                }
                 self.end(seen, Outcome::GaveUp);
             }
-            Message::Request(Request::EndBlockUpload) | Message::Segment { .. } => {}
+            Message::Request(Request::EndBlockUpload) => {}
+            Message::Segment { .. } => self.has_segments = !is_response,
+            // The response to the segments of a block.
+            Message::Response(Response::BlockDownloadResponse { .. })
+                if core::mem::take(&mut self.has_segments) => {}
             // A server that aborts a transfer, too, which its client has aborted.
             Message::Response(Response::Abort { .. }) if self.is_aborted && !self.is_pending => {}
             // A log that begins in the middle of a transfer.
@@ -404,6 +418,7 @@ impl Node {
                     outcome: Outcome::Open,
                     end: seen,
                     extra: Vec::new(),
+                    aborted: None,
                 });
                 self.is_pending = true;
             }
@@ -461,9 +476,10 @@ fn named(response: &Response, frame: &Frame) -> Option<Address> {
 
 /// The bit rate, estimated from frames that follow each other without a pause; `None` if there are
 /// too few of them.
-fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
+fn estimated(lengths: &[(Instant, u32, Frame)]) -> Option<u16> {
     let mut rates: Vec<f64> = lengths
         .windows(2)
+        .filter(|pair| !is_reaction(&pair[0].2, &pair[1].2))
         .filter_map(|pair| {
             let micros = pair[1].0.micros_since(pair[0].0);
             (micros > 0).then(|| f64::from(pair[1].1) * 1000.0 / micros as f64)
@@ -486,6 +502,17 @@ fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
     Some(rate)
 }
 
+/// Returns whether a frame may be the reaction of a node to the one before: the other side of an SDO, a response to a remote
+/// frame or to an LSS request, a PDO after SYNC. The time between them is that of a node, which may be constant, too.
+fn is_reaction(frame: &Frame, next: &Frame) -> bool {
+    let sdo = |frame: &Frame| default_sdo(frame).map(|(node, _)| node);
+    let is_lss = |frame: &Frame| matches!(frame.id().raw(), 0x7E4 | 0x7E5);
+    frame.is_remote()
+        || frame.id().raw() == 0x80
+        || is_lss(frame) && is_lss(next)
+        || sdo(frame).is_some() && sdo(frame) == sdo(next)
+}
+
 /// The median gap in microseconds; 0 without gaps.
 pub(super) fn median_interval(all: &[Seen]) -> u64 {
     let mut gaps: Vec<u64> = all
@@ -496,9 +523,30 @@ pub(super) fn median_interval(all: &[Seen]) -> u64 {
     gaps.get(gaps.len() / 2).copied().unwrap_or(0)
 }
 
+/// The frames from the first to the last stretch in which two senders alternate; empty: nowhere. A second device may be
+/// switched on late, or for a while.
+pub(super) fn interleaved(all: &[Seen]) -> &[Seen] {
+    /// Frames in a stretch, and between the starts of two.
+    const STRETCH: usize = 24;
+    const STEP: usize = 8;
+    if is_interleaved(all) {
+        return all;
+    }
+    let stretches = all.windows(STRETCH).step_by(STEP);
+    let found: Vec<bool> = stretches.map(is_interleaved).collect();
+    // One alone may be a disturbance of one sender.
+    let both = |number: &usize| found[*number] && found[*number + 1];
+    let mut pairs = (0..found.len().saturating_sub(1)).filter(both);
+    let Some(first) = pairs.next() else {
+        return &[];
+    };
+    let last = pairs.next_back().unwrap_or(first) + 1;
+    &all[first * STEP..last * STEP + STRETCH]
+}
+
 /// Returns whether two senders alternate: the distance to the frame after the next is constant, the
 /// distance to the next is not.
-pub(super) fn is_interleaved(all: &[Seen]) -> bool {
+fn is_interleaved(all: &[Seen]) -> bool {
     if all.len() < 8 {
         return false;
     }

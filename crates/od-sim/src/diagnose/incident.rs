@@ -52,7 +52,7 @@ impl Incident {
     /// Greatest number of records in an incident.
     pub const SHOWN: usize = 8;
 
-    /// Begin, end and whether the bus recovered: `1.500000 to 2.300000, not recovered`, in seconds. Without times only the
+    /// Begin, end and whether the bus recovered: `1.500000 s to 2.300000 s, not recovered`. Without times only the
     /// last part.
     pub fn span(&self) -> String {
         let state = if self.recovered {
@@ -61,19 +61,22 @@ impl Incident {
             "not recovered"
         };
         if self.has_times {
-            format!("{:?} to {:?}, {state}", self.begin, self.end)
+            format!("{:?} s to {:?} s, {state}", self.begin, self.end)
         } else {
             state.into()
         }
     }
 
     /// The incident as lines of text: what happened, when, each cause with its check, and the records that show it.
-    /// `words` is the text of each record of the log.
+    /// `words` is the text of each record of the log. Lines are wrapped for a terminal, without those of the records.
     pub fn lines(&self, words: &[String]) -> Vec<String> {
-        let mut lines = vec![self.text.clone(), self.span()];
+        let mut lines = hanging("", &self.text);
+        lines.push(self.span());
         for (place, cause) in (1..).zip(&self.causes) {
-            lines.push(format!("cause {place}: {}", cause.text));
-            lines.push(format!("         check {}", cause.check));
+            let label = format!("cause {place}: ");
+            lines.extend(hanging(&label, &cause.text));
+            let check = format!("check {}", cause.check);
+            lines.extend(hanging(&" ".repeat(label.len()), &check));
         }
         let shown = self.records.iter().filter_map(|place| words.get(*place));
         lines.extend(shown.cloned());
@@ -115,5 +118,51 @@ impl Incident {
         self.records.dedup();
         self.records.truncate(Self::SHOWN);
         self
+    }
+}
+
+/// The width of a terminal, without a number before an incident.
+const WIDTH: usize = 77;
+
+/// The lines of a text behind a label; the others begin below its first word.
+fn hanging(label: &str, text: &str) -> Vec<String> {
+    let wrapped = wrapped(text, WIDTH - label.len());
+    let labels = core::iter::once(label.to_owned());
+    let labels = labels.chain(core::iter::repeat(" ".repeat(label.len())));
+    let lines = labels.zip(wrapped.lines());
+    lines.map(|(label, line)| label + line).collect()
+}
+
+/// Wraps words at about this width.
+pub fn wrapped(text: &str, width: usize) -> String {
+    let mut out = String::new();
+    let mut column = 0;
+    for word in text.split_whitespace() {
+        let long = word.chars().count();
+        if column > 0 && column + 1 + long > width {
+            out.push('\n');
+            column = 0;
+        } else if column > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += long;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_wrapped_between_words() {
+        assert_eq!(wrapped("a bb ccc dddd", 6), "a bb\nccc\ndddd");
+        let text = "word ".repeat(20);
+        let lines = hanging("cause 1: ", &text);
+        assert_eq!(lines.len(), 2);
+        assert!(lines[0].starts_with("cause 1: word") && lines[1].starts_with("         word"));
+        assert!(lines.iter().all(|line| line.len() <= WIDTH));
     }
 }

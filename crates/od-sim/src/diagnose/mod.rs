@@ -7,13 +7,15 @@
 mod facts;
 mod incident;
 mod merge;
+mod protocol;
 mod rule;
 mod rules;
 
 use std::prelude::v1::*;
 
 pub use facts::BusFacts;
-pub use incident::{Cause, Incident};
+pub use incident::{Cause, Incident, wrapped};
+pub use protocol::other_protocol;
 
 use crate::logs::Record;
 
@@ -23,10 +25,13 @@ const MOST: usize = 1000;
 /// The incidents of a log, in the order of their beginning. A healthy log has none.
 ///
 /// If all records have one time, the log has no times, and only the order of its frames is known. Then the rules that
-/// measure times are not used, and the incidents have no times.
+/// measure times are not used, and the incidents have no times. In a log of [another protocol](other_protocol) only the rules
+/// about the line are used: error frames and the load.
 pub fn diagnose<'k>(records: &'k [Record], known: BusFacts<'k>) -> Vec<Incident> {
     let facts = facts::Facts::of(records, known);
+    let is_canopen = other_protocol(records).is_none();
     let used = rules::ALL.iter();
+    let used = used.filter(|rule| is_canopen || rules::OF_LINE.contains(&rule.name));
     let used = used.filter(|rule| facts.has_times || !rule.needs_times);
     let found = used.flat_map(|rule| {
         let mut all = (rule.check)(&facts);

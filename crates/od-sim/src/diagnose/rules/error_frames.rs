@@ -4,7 +4,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Seen};
+use crate::diagnose::facts::{Facts, Seen, median_interval};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 use crate::logs::BusError;
@@ -68,6 +68,11 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
         "a node with another bit rate destroys frames",
         "the bit rate of the node that was switched on or connected last (switches, LSS, EDS)",
     );
+    let adapter = Cause::new(
+        "adapter-bit-rate",
+        "the adapter has another bit rate than the bus: it receives errors only",
+        "the bit rate of the adapter; `odkit` and `candump` do not disturb the bus if the adapter is listen-only",
+    );
     let terminator = Cause::new(
         "terminator",
         "reflections: a terminator is missing, or a stub is too long",
@@ -80,11 +85,16 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
     );
     let is_many = worst.is_some_and(|worst| worst >= BusError::Passive);
     let is_noise = errors.len() < 5 && good > 20 * errors.len() && !is_many;
+    let hears_nothing = good == 0 && !had_frames_before(facts, errors);
     let causes = if lone * 2 > count {
         [silence, rate, terminator]
+    } else if hears_nothing && facts.has_times && !is_repeated(errors) {
+        [adapter, silence, terminator]
     } else if is_noise {
         [noise, terminator, rate]
-    } else if good == 0 && !had_frames_before(facts, errors) {
+    } else if hears_nothing && !facts.has_times {
+        [silence, adapter, rate]
+    } else if hears_nothing {
         [silence, rate, terminator]
     } else if longest >= 8 {
         // All frames fail, with their repetitions, until the node with the wrong bit rate is
@@ -98,6 +108,15 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
         .shows(errors.iter().take(Incident::SHOWN).map(|seen| seen.place));
     incident.causes.extend(causes);
     incident
+}
+
+/// Returns whether error frames have the distances of one frame that is sent again and again; frames of a whole bus differ.
+fn is_repeated(errors: &[Seen]) -> bool {
+    let period = median_interval(errors);
+    let near = errors
+        .windows(2)
+        .filter(|pair| pair[1].at.micros_since(pair[0].at).abs_diff(period) * 4 <= period);
+    near.count() * 10 >= errors.len().saturating_sub(1) * 7
 }
 
 fn had_frames_before(facts: &Facts<'_>, errors: &[Seen]) -> bool {

@@ -22,7 +22,18 @@ const FLOOD: usize = 5;
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        let is_early = |a: &Seen, b: &Seen| b.at.micros_since(a.at) < SHORTEST * 9 / 10;
+        let gap = |a: &Seen, b: &Seen| b.at.micros_since(a.at);
+        // A node with a period of 1 ms sends all its heartbeats like this.
+        let has_pauses = node
+            .beats
+            .windows(2)
+            .any(|pair| gap(&pair[0], &pair[1]) > SHORTEST * 20);
+        let shortest = if has_pauses {
+            SHORTEST * 2
+        } else {
+            SHORTEST * 9 / 10
+        };
+        let is_early = |a: &Seen, b: &Seen| gap(a, b) < shortest;
         let runs = node.beats.chunk_by(is_early);
         let runs: Vec<&[Seen]> = runs.filter(|run| run.len() >= FLOOD).collect();
         let (Some([first, ..]), Some([.., last])) = (runs.first(), runs.last()) else {

@@ -44,7 +44,11 @@ fn gaps(facts: &Facts<'_>, node: &Node) -> Vec<(Seen, Option<Seen>)> {
         let own = beats
             .get(since.max(number.saturating_sub(12))..number)
             .unwrap_or_default();
-        let period = median_interval(own);
+        // Heartbeats without a pause do not make the period shorter.
+        let period = match median_interval(own) {
+            0 => 0,
+            period => period.max(node.period),
+        };
         let end = next.map_or(facts.end, |next| next.at);
         let longest = (period * 5 / 2).max(period + 20_000);
         let is_late = period > 0 && end.micros_since(last.at) > longest;
@@ -79,6 +83,9 @@ fn incident(
             && before(after(&node.beats, silent), until).is_empty()
     });
     let together: Vec<u8> = others.map(|(other, _)| *other).collect();
+    let mut all: Vec<u8> = together.iter().copied().chain([id]).collect();
+    all.sort_unstable();
+    let all: Vec<String> = all.iter().map(u8::to_string).collect();
     let still = before(after(&node.sent, last.at.plus_micros(period)), until);
     let text = match next {
         Some(next) => format!(
@@ -99,7 +106,8 @@ fn incident(
     let segment = Cause::new(
         "segment",
         format!(
-            "nodes {id} and {together:?} fall silent together: their supply, or the cable between them and the others"
+            "nodes {} fall silent together: their supply, or the cable between them and the others",
+            all.join(", ")
         ),
         "what these nodes share: a fuse, a power supply, a connector",
     );

@@ -14,6 +14,7 @@ mod nmt_not_followed;
 mod pdo_lost;
 mod reboots;
 mod same_node_id;
+mod sdo_broken;
 mod sdo_echo;
 mod sdo_refused;
 mod sdo_timeout;
@@ -25,6 +26,9 @@ mod two_sync_producers;
 mod unasked_responses;
 
 use super::rule::Rule;
+
+/// The rules about the line, whatever its frames mean.
+pub(super) const OF_LINE: [&str; 2] = [error_frames::RULE.name, bus_load::RULE.name];
 
 /// All rules. The first ones explain most: a bus without terminators loses heartbeats, PDOs and
 /// responses.
@@ -47,6 +51,7 @@ pub(super) const ALL: &[Rule] = &[
     pdo_lost::RULE,
     two_clients::RULE,
     unasked_responses::RULE,
+    sdo_broken::RULE,
     sdo_timeout::RULE,
     sdo_refused::RULE,
     state_changed::RULE,

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Node, Outcome, Seen, after, before, is_interleaved};
+use crate::diagnose::facts::{Facts, Node, Outcome, Seen, after, before, interleaved};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 use crate::diagnose::rules::unasked_responses;
@@ -22,23 +22,29 @@ const SOON: u64 = 50_000;
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        let mut signs = twice(facts, node);
-        let mut why = "a request has two responses";
-        if signs.len() < 2 {
-            signs = boots(facts, *id, node);
-            why = "one reset brings two boot-up messages";
-        }
-        if signs.len() < 2 {
-            signs = beats(facts, node);
-            why = "two heartbeats take turns";
-        }
-        let [first, .., last] = signs[..] else {
+        let mut all = Vec::from([
+            ("a request has two responses", twice(facts, node)),
+            (
+                "one reset brings two boot-up messages",
+                boots(facts, *id, node),
+            ),
+            ("two heartbeats take turns", beats(facts, node)),
+        ]);
+        all.retain(|(_, signs)| signs.len() >= 2);
+        let Some((why, _)) = all.first() else {
+            continue;
+        };
+        let signs = || all.iter().flat_map(|(_, signs)| signs);
+        let (Some(first), Some(last)) = (
+            signs().min_by_key(|seen| seen.at),
+            signs().max_by_key(|seen| seen.at),
+        ) else {
             continue;
         };
         found.push(
             Incident::new(format!("node {id}: {why}"), first.at, last.at)
                 .node(*id)
-                .shows(signs.iter().map(|seen| seen.place))
+                .shows(all[0].1.iter().map(|seen| seen.place))
                 .cause(Cause::new(
                     "same-node-id",
                     format!("two devices have node ID {id}"),
@@ -110,8 +116,12 @@ fn beats(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
         .filter(|three| three[0] == three[2] && three[0] & 0x7F != three[1] & 0x7F);
     let is_turning = states.len() >= 6 && turns.count() * 2 >= states.len();
     let is_guarded = node.guards.len() * 2 > node.beats.len();
-    if !is_guarded && (is_turning || facts.has_times && is_interleaved(&node.beats)) {
+    if is_guarded {
+        Vec::new()
+    } else if is_turning {
         node.beats.clone()
+    } else if facts.has_times {
+        interleaved(&node.beats).to_vec()
     } else {
         Vec::new()
     }

@@ -10,6 +10,7 @@ use od_wire::AbortReason;
 use crate::diagnose::facts::{Exchange, Facts, Outcome, after, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
+use crate::diagnose::rules::sdo_broken;
 
 pub(super) const RULE: Rule = Rule {
     name: "sdo-refused",
@@ -29,7 +30,9 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         // The refusals of an object for one reason.
         let mut refused: BTreeMap<_, Vec<&Exchange>> = BTreeMap::new();
         for one in &node.exchanges {
-            if let Outcome::Refused(code) = one.outcome {
+            if let Outcome::Refused(code) = one.outcome
+                && !sdo_broken::is_one(code)
+            {
                 let key = (one.is_download, one.address, code);
                 refused.entry(key).or_default().push(one);
             }

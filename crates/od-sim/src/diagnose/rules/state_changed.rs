@@ -3,6 +3,8 @@
 use std::format;
 use std::prelude::v1::*;
 
+use od_wire::emcy::text;
+
 use crate::diagnose::facts::{Facts, after as later};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
@@ -30,6 +32,13 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             };
             let mut states = later(&node.states, after.at).iter();
             let is_back = states.any(|(_, state)| state & 0x7F == 5);
+            let mut emcys = node.emcys.iter();
+            let emcy = emcys.find(|emcy| {
+                emcy.code != 0 && emcy.seen.place > before.place && emcy.seen.place < after.place
+            });
+            let error = emcy.map_or(String::from("an error"), |emcy| {
+                format!("the error {:04X}h, {},", emcy.code, text(None, emcy.code))
+            });
             found.push(
                 Incident::new(
                     format!("node {id} goes to {state} without a command"),
@@ -39,9 +48,10 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 .node(*id)
                 .recovered(is_back)
                 .shows([before.place, after.place])
+                .shows(emcy.map(|emcy| emcy.seen.place))
                 .cause(Cause::new(
                     "error-behaviour",
-                    format!("an error of node {id} changes its NMT state (1029h)"),
+                    format!("{error} of node {id} changes its NMT state (1029h)"),
                     format!("EMCY and 1003h of node {id}, and what 1029h says"),
                 )),
             );

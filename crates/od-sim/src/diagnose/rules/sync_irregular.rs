@@ -3,7 +3,9 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Seen, is_interleaved, median_interval, millis};
+use od_wire::Instant;
+
+use crate::diagnose::facts::{Facts, Seen, from, interleaved, median_interval, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -17,7 +19,7 @@ pub(super) const RULE: Rule = Rule {
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let all = &facts.syncs;
     let period = median_interval(all);
-    if all.len() < 20 || period == 0 || is_interleaved(all) {
+    if all.len() < 20 || period == 0 || !interleaved(all).is_empty() {
         return Vec::new();
     }
     let gap = |pair: &[Seen]| pair[1].at.micros_since(pair[0].at);
@@ -62,7 +64,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     }
     let lost: Vec<&[Seen]> = all
         .windows(2)
-        .filter(|pair| gap(pair) * 10 >= period * 18)
+        .filter(|pair| gap(pair) * 10 >= period * 18 && !is_meant(facts, pair, period))
         .collect();
     if let [first, ..] = lost[..] {
         let last = lost[lost.len() - 1];
@@ -90,4 +92,16 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         );
     }
     found
+}
+
+/// Returns whether a command or a write explains a pause: NMT (CiA 301, 7.3.2.2: no SYNC in Stopped), 1005h or 1006h.
+fn is_meant(facts: &Facts<'_>, pause: &[Seen], period: u64) -> bool {
+    let [start, end] = [pause[0].at, pause[1].at];
+    let start = Instant::from_micros(start.as_micros().saturating_sub(period));
+    let commands = until(from(&facts.commands, start), end);
+    let mut nodes = facts.nodes.values();
+    !commands.is_empty()
+        || nodes.any(|node| {
+            [0x1005, 0x1006].map(|index| node.is_written(index, start, end)) != [false; 2]
+        })
 }

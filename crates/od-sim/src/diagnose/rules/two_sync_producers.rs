@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, is_interleaved};
+use crate::diagnose::facts::{Facts, interleaved};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -18,22 +18,28 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let counts: Vec<u8> = facts
         .syncs
         .iter()
-        .filter_map(|seen| facts.frame(seen.place)?.data().first().copied())
+        .filter_map(|seen| match facts.frame(seen.place)?.data() {
+            [count] => Some(*count),
+            _ => None,
+        })
         .collect();
     let breaks = counts
         .windows(2)
         .filter(|pair| pair[1] != pair[0].wrapping_add(1) && pair[1] != 1)
         .count();
     let is_mixed = counts.len() >= 8 && breaks * 3 > counts.len();
-    let [first, .., last] = facts.syncs[..] else {
+    let both = if is_mixed {
+        &facts.syncs
+    } else {
+        interleaved(&facts.syncs)
+    };
+    let [first, .., last] = both else {
         return Vec::new();
     };
-    if !is_interleaved(&facts.syncs) && !is_mixed {
-        return Vec::new();
-    }
     Vec::from([
         Incident::new("two series of SYNC messages take turns", first.at, last.at)
-            .shows(facts.syncs.iter().take(6).map(|seen| seen.place))
+            .recovered(facts.syncs.last().is_some_and(|end| end.place > last.place))
+            .shows(both.iter().take(6).map(|seen| seen.place))
             .cause(Cause::new(
                 "two-sync-producers",
                 "two nodes produce SYNC",
