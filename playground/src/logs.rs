@@ -11,8 +11,8 @@ use crate::packed;
 record! {
     /// A parsed log.
     Log {
-        /// Packed frames.
-        frames: Bytes,
+        /// The buses whose frames it has; a log of one bus has one without a name.
+        channels: Vec<Channel>,
         count: usize,
         /// Number of lines that could not be read.
         skipped: usize,
@@ -20,6 +20,15 @@ record! {
         line: u32,
         /// Reason why it could not be read.
         why: String,
+    }
+
+    /// The frames of a bus in a log.
+    Channel {
+        /// Its name in the log, such as `can0`.
+        name: String,
+        /// Packed frames.
+        frames: Bytes,
+        count: usize,
     }
 }
 
@@ -29,17 +38,25 @@ record! {
 /// Reason why it is not a log.
 #[wasm_bindgen(js_name = readLog, unchecked_return_type = "Log")]
 pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
-    let log = read(file)?;
-    let mut batch = Vec::with_capacity(log.records.len() * packed::LEN);
-    for line in &log.records {
-        packed::push_line(&mut batch, line);
-    }
+    let mut log = read(file)?;
     let (count, skipped) = (log.records.len(), log.skipped.len());
+    let channels = log.take_channels().into_iter();
+    let channels = channels.map(|(name, records)| {
+        let mut batch = Vec::with_capacity(records.len() * packed::LEN);
+        for line in &records {
+            packed::push_line(&mut batch, line);
+        }
+        Channel {
+            name,
+            frames: Bytes(batch),
+            count: records.len(),
+        }
+    });
+    let channels = channels.collect();
     let first = log.skipped.into_iter().next();
     let (line, why) = first.map_or((0, String::new()), |first| (first.line, first.why));
-    let frames = Bytes(batch);
     let log = Log {
-        frames,
+        channels,
         count,
         skipped,
         line,
@@ -49,6 +66,14 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
 }
 
 record! {
+    /// The faults in a log.
+    Diagnosis {
+        /// The faults, in the order of their beginning.
+        incidents: Vec<Incident>,
+        /// Why the frames are not CANopen, in one sentence; empty: they are, or may be.
+        other: &'static str,
+    }
+
     /// A fault in a log.
     Incident {
         /// The incident in one sentence.
@@ -69,15 +94,19 @@ record! {
 }
 
 /// Finds the faults in packed frames, in the order of their beginning; `rate` is the bit rate in kbit/s, if it is known.
-#[wasm_bindgen(unchecked_return_type = "Incident[]")]
+#[wasm_bindgen(unchecked_return_type = "Diagnosis")]
 pub fn diagnose(frames: &[u8], rate: Option<u16>) -> JsValue {
     let known = BusFacts {
         bit_rate: rate,
         dictionary: None,
     };
-    let found = diagnose::diagnose(&records(frames), known);
-    let incidents: Vec<Incident> = found.into_iter().map(incident).collect();
-    incidents.value()
+    let records = records(frames);
+    let found = diagnose::diagnose(&records, known).into_iter();
+    let diagnosis = Diagnosis {
+        incidents: found.map(incident).collect(),
+        other: diagnose::other_protocol(&records).unwrap_or_default(),
+    };
+    diagnosis.value()
 }
 
 fn incident(found: diagnose::Incident) -> Incident {

@@ -198,6 +198,11 @@ check('a log never throws the capture away unasked: beside it, after it is saved
   // A log without added frames is replaced without a question.
   await openLog(page, 'next.log', LOG.split('\n')[0]);
   await becomes('the next log', () => ids(page), '601');
+  // Of a log of two buses, one is shown.
+  await openLog(page, 'two.log', LOG.replaceAll('can0 705', 'can1 705'));
+  await offer.getByText('two.log has the frames of 2 buses.').waitFor();
+  await offer.getByRole('button', { name: 'can1 (2 frames)' }).click();
+  await becomes('the second bus', () => ids(page), '705 705');
 });
 
 check('a log in the send list runs onto the bus and only to be looked at, at any speed, held and frame by frame', async (page) => {
@@ -278,6 +283,10 @@ check('the diagnosis of a log without times says so, and shows its frames withou
   await becomes('the fault', () => region.getByRole('heading').allTextContents(), ['node 5 restarts 2 times without a command']);
   const shown = await region.getByRole('list', { name: 'Frames that show it' }).getByRole('button').allTextContents();
   assert.ok(shown.includes('705 00'), shown.join('\n'));
+  await openLog(page, 'truck.log', '(1.0) can0 0CF00400#F07D7D0020000000\n(1.1) can0 18FEF100#FF\n');
+  await becomes('the frames', () => captured(page), 2);
+  await region.getByRole('button', { name: 'Look again' }).click();
+  await region.getByText('These frames are not CANopen: all CAN-IDs have 29 bits').waitFor();
 });
 
 check('the nodes of the bus: state, heartbeat, EMCY and device, from the frames', { hash: '#device=gxmm&node=1&device=gcam&node=6' }, async (page) => {

@@ -12,12 +12,13 @@ import { View } from '../views/view';
 import './style';
 import { S } from './texts';
 
-/** A diagnosis: the number of the first frame, the number of frames, whether they have times, and the faults. */
+/** A diagnosis: the number of the first frame, the number of frames, whether they have times, the faults, and why they are not CANopen. */
 interface Found {
   first: number;
   count: number;
   timed: boolean;
   incidents: Incident[];
+  other: string;
 }
 
 class Diagnosis extends View {
@@ -44,7 +45,7 @@ class Diagnosis extends View {
     const timed = end - first < 2 || state.ring.get(first)?.time !== state.ring.get(end - 1)?.time;
     const answer = await use('diagnose', state.ring.slice(first, end), line?.real ? (line.rate ?? undefined) : undefined);
     if ('error' in answer) this.error = answer.error;
-    else this.found = { first, count: end - first, timed, incidents: answer.value };
+    else this.found = { first, count: end - first, timed, ...answer.value };
   }
 
   protected override render() {
@@ -54,6 +55,7 @@ class Diagnosis extends View {
     return html`<div class="diagnosis scroll" tabindex="0" role="region" aria-label=${T.frames.diagnosis}>
       <p class="note" role="status" data-tone=${error ? 'error' : nothing}>${said}
         <button class="small" ?disabled=${!found && !error} @click=${() => void this.look()}>${t.again}</button></p>
+      ${found?.other ? html`<p class="note">${t.other(found.other)}</p>` : nothing}
       ${found && !found.timed ? html`<p class="note">${t.untimed}</p>` : nothing}
       ${found ? html`<ol>${found.incidents.map((one) => this.incident(one, found))}</ol>` : nothing}
     </div>`;

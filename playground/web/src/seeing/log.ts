@@ -20,8 +20,18 @@ export function isLog(): boolean {
   return isAlone || (besideLog.value?.isShown ?? false);
 }
 
-/** Shows a log. The user is asked before a capture is replaced. */
+/** The frames of one bus in a log, and the lines that could not be read. */
+type BusLog = Omit<Log, 'channels'> & { frames: Uint8Array };
+
+/** Shows a log. The user is asked which bus, if it has several, and before a capture is replaced. */
 export function opened(name: string, log: Log): void {
+  const buses = log.channels.map((bus) => ({ text: S.log.bus(bus.name, bus.count), run: () => openedBus(bus.name ? `${name}, ${bus.name}` : name, { ...log, ...bus }) }));
+  const [first, ...others] = buses;
+  if (!first || others.length === 0) return first?.run();
+  state.offers.value = [...state.offers.value.filter(({ key }) => key !== 'log'), { key: 'log', text: S.log.which(name, buses.length), action: first.text, run: first.run, others }];
+}
+
+function openedBus(name: string, log: BusLog): void {
   const { ring } = state.live;
   const isFree = ring.end === ring.first || (onlyLog?.end === ring.end && onlyLog.cleared === state.cleared.value);
   state.offers.value = state.offers.value.filter(({ key }) => key !== 'log');
@@ -39,9 +49,9 @@ export function opened(name: string, log: Log): void {
   state.offers.value = [...state.offers.value, { key: 'log', text, action: S.log.beside, run: () => beside(name, log), others }];
 }
 
-const skipped = (log: Log): string => (log.skipped ? ` ${S.log.skipped(log.skipped, log.line, log.why)}` : '');
+const skipped = (log: BusLog): string => (log.skipped ? ` ${S.log.skipped(log.skipped, log.line, log.why)}` : '');
 
-function tell(name: string, log: Log, isBeside: boolean): void {
+function tell(name: string, log: BusLog, isBeside: boolean): void {
   forget();
   // A log is read from its beginning.
   revealed.value = { number: state.ring.first };
@@ -50,7 +60,7 @@ function tell(name: string, log: Log, isBeside: boolean): void {
   state.toast.value = { text, tone: log.skipped ? 'error' : 'info', action: { text: S.log.send, run: () => start('bus') } };
 }
 
-function beside(name: string, log: Log): void {
+function beside(name: string, log: BusLog): void {
   const ring = new Ring();
   ring.append(log.frames);
   putBeside(name, ring);
@@ -58,7 +68,7 @@ function beside(name: string, log: Log): void {
 }
 
 /** Pauses time, so that no frames mix with the log; a real bus cannot be paused. */
-function replace(name: string, log: Log): void {
+function replace(name: string, log: BusLog): void {
   close();
   clearConsole();
   if (state.real.value) return beside(name, log);

@@ -9,9 +9,10 @@ import { View } from './view';
 class Offers extends View {
   protected override render() {
     const drop = (offer: state.Offer): void => void (state.offers.value = state.offers.value.filter((one) => one !== offer));
-    // During a lesson the page does not offer the last bench; in a dialog and on a real bus it offers only what a trainer offers.
-    const isOnly = state.real.value !== null || this.closest('dialog') !== null;
-    const offers = state.offers.value.filter(({ key }) => (isOnly ? key === 'class' : key !== 'kept' || state.lesson.value === null));
+    // During a lesson the page does not offer the last bench; in a dialog it offers only what a trainer offers, and on a real bus
+    // also a log that the user has opened.
+    const few = this.closest('dialog') ? ['class'] : state.real.value ? ['class', 'log'] : null;
+    const offers = state.offers.value.filter(({ key }) => few?.includes(key) ?? (key !== 'kept' || state.lesson.value === null));
     return html`<div class="offers" role="region" aria-live="polite" aria-label=${T.share.offers} ?hidden=${offers.length === 0}>${offers.map(
       (offer) => html`<div class="offer">
         <span>${offer.text}</span>
