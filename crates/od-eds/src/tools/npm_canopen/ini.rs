@@ -59,6 +59,11 @@ impl Section {
         self.pairs.get(key)
     }
 
+    /// The place of the value of a key; the header if the section does not have the key.
+    pub(super) fn place(&self, key: &str) -> Span {
+        self.text(key).map_or(self.header, |(_, at)| *at)
+    }
+
     /// `parseInt(…) || undefined`
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         let (text, _) = self.text(key)?;

@@ -71,131 +71,41 @@ pub(super) fn read(input: &Input<'_>) -> Reading {
     reader.reading
 }
 
+/// Keys that it uses only if they are a number other than 0.
+const NUMBERS: [&str; 4] = ["DataType", "LowLimit", "HighLimit", "CompactSubObj"];
+
+/// Keys of an object with sub-objects that it does not use, unless the object is compact.
+const OF_VALUE: [&str; 6] = [
+    "DataType",
+    "AccessType",
+    "DefaultValue",
+    "PDOMapping",
+    "LowLimit",
+    "HighLimit",
+];
+
 impl Reader {
     fn object(&mut self, section: &Section, index: u32, sub: Option<u32>) {
-        let missing = |key: &str| {
-            let finding = MISSING.at(section.header).fact("section", &*section.name);
-            finding.fact("name", key)
-        };
-        let name = match section.text("ParameterName") {
-            Some((Given::Text(name), _)) => Some(name.clone()),
-            Some(_) => None,
-            None => {
-                self.reading.push(missing("ParameterName"));
-                None
-            }
-        };
-        let code = section.number("ObjectType").unwrap_or(7.0) as i128;
-        let data_type = section.number("DataType").map(|it| it as i128);
-        let compact = section.number("CompactSubObj").is_some();
-        let has_type = data_type.is_some();
-        // Keys that it uses only if they are a number other than 0.
-        let numbers = ["DataType", "LowLimit", "HighLimit", "CompactSubObj"];
-        let extra = |reading: &mut Reading, keys: &[&str]| {
-            for key in keys {
-                let counts = !numbers.contains(key) || section.number(key).is_some();
-                if let Some((_, at)) = section.text(key).filter(|_| counts) {
-                    let finding = EXTRA.at(*at).fact("name", *key);
-                    let line = Span {
-                        start: at.start - (at.column - 1).min(at.start),
-                        ..*at
-                    };
-                    let fix = matches!(code, 6 | 8 | 9).then(|| Fix::safe().comment_out(line));
-                    reading.push(match fix {
-                        Some(fix) => finding.fix(fix),
-                        None => finding,
-                    });
-                }
-            }
-        };
-        let access = match section.text("AccessType") {
-            Some((Given::Text(word), _)) => word.clone(),
-            Some(_) => String::new(),
-            None => "rw".into(),
-        };
-        let limit = |key: &str| {
-            let read = section.number(key).map(|it| Read::Number(it as i128));
-            // It ignores a limit of 0; most such limits are those of the type.
-            let text = section.text(key);
-            let is_zero = text.is_some_and(
-                |(text, _)| matches!(text, Given::Text(text) if parse_int(text) == Some(0.0)),
-            );
-            (!is_zero).then_some(read)
-        };
-        let mut entry = ReadEntry {
-            name,
-            data_type,
-            access: Some(access),
-            low: limit("LowLimit"),
-            high: limit("HighLimit"),
-            ..ReadEntry::default()
-        };
-        match code {
-            5 | 7 => {
-                if !has_type {
-                    self.reading.push(missing("DataType"));
-                }
-                extra(&mut self.reading, &["CompactSubObj"]);
-                if let (Some(low), Some(high)) =
-                    (section.number("LowLimit"), section.number("HighLimit"))
-                    && high < low
-                {
-                    let at = section
-                        .text("HighLimit")
-                        .map_or(section.header, |(_, at)| *at);
-                    self.reading.push(LIMITS.at(at));
-                }
-                let given = section.text("DefaultValue");
-                let text = given.map_or(Given::Null, |(text, _)| text.clone());
-                match raw(&text, data_type.unwrap_or(0)) {
-                    Ok(read) => entry.default = read.map(Some),
-                    Err(()) => self.unfit(given),
-                }
-            }
+        let mut entry = self.entry(section);
+        match section.number("ObjectType").unwrap_or(7.0) as i128 {
+            5 | 7 => entry.default = self.value(section, entry.data_type),
             6 | 8 | 9 => {
-                if compact && !has_type {
-                    self.reading.push(missing("DataType"));
-                } else if !compact {
-                    extra(
-                        &mut self.reading,
-                        &[
-                            "DataType",
-                            "AccessType",
-                            "DefaultValue",
-                            "PDOMapping",
-                            "LowLimit",
-                            "HighLimit",
-                        ],
-                    );
-                }
+                self.container(section);
                 if sub.is_none() {
                     self.parents.insert(index, 0);
-                    let count = ReadEntry {
-                        name: Some("Max sub-index".into()),
-                        data_type: Some(5),
-                        access: Some("rw".into()),
-                        default: Some(Some(Read::Number(0))),
-                        ..ReadEntry::default()
-                    };
-                    self.reading.entries.insert((index, 0), count);
-                }
-                if sub.is_none() {
+                    self.reading.entries.insert((index, 0), count());
                     return;
                 }
             }
             2 => {
-                extra(
-                    &mut self.reading,
-                    &["PDOMapping", "LowLimit", "HighLimit", "CompactSubObj"],
-                );
-                entry.data_type = Some(data_type.unwrap_or(0xF));
+                let unused = ["PDOMapping", "LowLimit", "HighLimit", "CompactSubObj"];
+                self.extra(section, &unused, false);
+                entry.data_type = Some(entry.data_type.unwrap_or(0xF));
             }
-            _ => {
-                let at = section
-                    .text("ObjectType")
-                    .map_or(section.header, |(_, at)| *at);
-                self.reading
-                    .push(CODE.at(at).fact("value", code.to_string()));
+            code => {
+                let at = section.place("ObjectType");
+                let finding = CODE.at(at).fact("value", code.to_string());
+                self.reading.push(finding);
             }
         }
         let sub = sub.unwrap_or(0);
@@ -206,6 +116,87 @@ impl Reader {
             }
         }
         self.reading.entries.insert((index, sub), entry);
+    }
+
+    /// What all sections have: name, type, access and limits.
+    fn entry(&mut self, section: &Section) -> ReadEntry {
+        let name = match section.text("ParameterName") {
+            Some((Given::Text(name), _)) => Some(name.clone()),
+            Some(_) => None,
+            None => {
+                self.missing(section, "ParameterName");
+                None
+            }
+        };
+        let access = match section.text("AccessType") {
+            Some((Given::Text(word), _)) => word.clone(),
+            Some(_) => String::new(),
+            None => "rw".into(),
+        };
+        ReadEntry {
+            name,
+            data_type: section.number("DataType").map(|it| it as i128),
+            access: Some(access),
+            low: limit(section, "LowLimit"),
+            high: limit(section, "HighLimit"),
+            ..ReadEntry::default()
+        }
+    }
+
+    /// The value of a VAR or a sub-object.
+    fn value(&mut self, section: &Section, data_type: Option<i128>) -> Option<Option<Read>> {
+        if data_type.is_none() {
+            self.missing(section, "DataType");
+        }
+        self.extra(section, &["CompactSubObj"], false);
+        let limits = section.number("LowLimit").zip(section.number("HighLimit"));
+        if limits.is_some_and(|(low, high)| high < low) {
+            self.reading.push(LIMITS.at(section.place("HighLimit")));
+        }
+        let given = section.text("DefaultValue");
+        let text = given.map_or(Given::Null, |(text, _)| text.clone());
+        match raw(&text, data_type.unwrap_or(0)) {
+            Ok(read) => read.map(Some),
+            Err(()) => {
+                self.unfit(given);
+                None
+            }
+        }
+    }
+
+    /// An object with sub-objects.
+    fn container(&mut self, section: &Section) {
+        let is_compact = section.number("CompactSubObj").is_some();
+        if !is_compact {
+            self.extra(section, &OF_VALUE, true);
+        } else if section.number("DataType").is_none() {
+            self.missing(section, "DataType");
+        }
+    }
+
+    fn missing(&mut self, section: &Section, key: &str) {
+        let finding = MISSING.at(section.header).fact("section", &*section.name);
+        self.reading.push(finding.fact("name", key));
+    }
+
+    /// Reports keys that it does not use. A fix comments them out in an object with sub-objects.
+    fn extra(&mut self, section: &Section, keys: &[&str], is_container: bool) {
+        for key in keys {
+            let counts = !NUMBERS.contains(key) || section.number(key).is_some();
+            let Some((_, at)) = section.text(key).filter(|_| counts) else {
+                continue;
+            };
+            let finding = EXTRA.at(*at).fact("name", *key);
+            let line = Span {
+                start: at.start - (at.column - 1).min(at.start),
+                ..*at
+            };
+            self.reading.push(if is_container {
+                finding.fix(Fix::safe().comment_out(line))
+            } else {
+                finding
+            });
+        }
     }
 
     fn unfit(&mut self, given: Option<&(Given, Span)>) {
@@ -220,5 +211,25 @@ impl Reader {
             .fact("name", "DefaultValue")
             .fact("value", text);
         self.reading.push(finding);
+    }
+}
+
+/// A limit. It ignores one of 0; most such limits are those of the type.
+fn limit(section: &Section, key: &str) -> Option<Option<Read>> {
+    let read = section.number(key).map(|it| Read::Number(it as i128));
+    let text = section.text(key);
+    let is_zero = text
+        .is_some_and(|(text, _)| matches!(text, Given::Text(text) if parse_int(text) == Some(0.0)));
+    (!is_zero).then_some(read)
+}
+
+/// The sub-index 0 that it makes for an object with sub-objects.
+fn count() -> ReadEntry {
+    ReadEntry {
+        name: Some("Max sub-index".into()),
+        data_type: Some(5),
+        access: Some("rw".into()),
+        default: Some(Some(Read::Number(0))),
+        ..ReadEntry::default()
     }
 }
