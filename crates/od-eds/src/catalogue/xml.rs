@@ -71,11 +71,7 @@ const SENTENCES: &[(&str, &str)] = &[
         "{name} `{given}` in [{section}] is not valid",
         "{name} `{given}` is not valid",
     ),
-    (
-        "write `0` or `1`, or leave the value empty",
-        "write `true` or `false`",
-    ),
-    (", or leave the value empty", ""),
+    ("write `0` or `1`", "write `true` or `false`"),
     (
         "LSS_Supported in [DeviceInfo] is 0",
         "layerSettingServiceSlave is false",

@@ -273,6 +273,9 @@ const TABLE: &[Row] = &[
         (5, 5, "switched reluctance motor"), (6, 6, "wound-rotor induction motor"),
         (7, 7, "squirrel-cage induction motor"), (8, 8, "stepper motor"), (9, 9, "microstep stepper motor"),
         (10, 10, "sinusoidal brushless motor"), (11, 11, "trapezoidal brushless motor"),
+        (12, 12, "synchronous reluctance motor"), (13, 13, "DC motor with permanent magnets"),
+        (14, 14, "DC motor with series winding"), (15, 15, "DC motor with shunt winding"),
+        (16, 16, "DC motor with compound winding"),
     ])),
     row(402, 0x6502, 0x6502, VAR, Bits(&[
         (0, "profile position"), (1, "velocity"), (2, "profile velocity"), (3, "profile torque"), (5, "homing"),

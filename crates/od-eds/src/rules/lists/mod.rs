@@ -20,6 +20,7 @@ catalogue! {
     reader W0217
     reader W0218
     w0219_tools_sections W0219
+    w0220_number_empty W0220
     i0240_file_sections_missing I0240
     w0241_comment_lines W0241
     reader W0242
@@ -44,6 +45,7 @@ pub(crate) mod i0255_changed_before_created;
 pub(crate) mod reader;
 pub(crate) mod w0216_mandatory_key_missing;
 pub(crate) mod w0219_tools_sections;
+pub(crate) mod w0220_number_empty;
 pub(crate) mod w0241_comment_lines;
 pub(crate) mod w0243_module_section_missing;
 pub(crate) mod w0244_list_count;

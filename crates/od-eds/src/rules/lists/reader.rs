@@ -12,7 +12,7 @@ use crate::finding::{
     Severity::{Error, Info, Warning},
 };
 use crate::fix::Fix;
-use crate::scan::names::List;
+use crate::scan::names::{List, place};
 use crate::scan::number::number;
 use crate::scan::section::{Text, TextSection};
 use crate::span::Span;
@@ -318,9 +318,8 @@ pub(crate) static I0212: Rule = Rule {
 };
 
 pub(crate) fn i0212_section_name_spelling(section: &TextSection<'_>, right: &str) -> Finding {
-    // Another index loses the whole object, a leading 0 in the sub-index loses a sub-object.
-    let own = |name: &str| name.get(..4).map(str::to_ascii_uppercase);
-    let severity = if own(&section.name.value) == own(right) {
+    // With a leading 0 the sub-index has the same value; every other spelling loses the object or the sub-object.
+    let severity = if place(&section.name.value) == place(right) {
         Warning
     } else {
         Error

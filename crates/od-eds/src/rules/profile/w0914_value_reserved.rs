@@ -46,6 +46,7 @@ fn reserved(address: Address, number: i128) -> Option<(u16, Reserved, &'static s
             (402, Number(wrong), "15, 16, 31, 32 and 38 to 127")
         }
         (0x60C2, 2) => (402, Number(number > 63), "64 to 127"),
+        (0x6402, 0) => (402, Number(matches!(number, 17..=0x7FFE)), "17 to 32766"),
         (0x6502, 0) => (402, Bits(0xF810), "bits 4 and 11 to 15"),
         (0x6430 | 0x6450, 1..=254) => return of_unit(401, number),
         (0x60A8..=0x60AB, 0) => return of_unit(402, number),

@@ -20,17 +20,17 @@ pub(crate) static W0609: Rule = Rule {
     source: "CiA 306-1, FileInfo, DeviceInfo, DummyUsage, DeviceComissioning",
     fixability: Fixability::Unsafe,
     says: "{name} `{given}` in [{section}] is not valid",
-    help: "write `0` or `1`, or leave the value empty",
+    help: "write `0` or `1`",
     also: &[W0609_NUMBER, W0609_LONG, W0609_HEX, W0609_VERSION],
     ..Rule::of("W0609")
 };
 
 const W0609_NUMBER: Form = Form {
-    help: "write a number from 0 to {most}, or leave the value empty",
+    help: "write a number from 0 to {most}",
     ..Form::OWN
 };
 const W0609_LONG: Form = Form {
-    help: "write a number such as `0x1A` with at most 32 bits, or leave the value empty",
+    help: "write a number such as `0x1A` with at most 32 bits",
     ..Form::OWN
 };
 const W0609_HEX: Form = Form {

@@ -91,8 +91,12 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
             Some(right) => finding.fix(Fix::unsafe_fix().replace(value.span, right)),
             None => finding,
         };
-        // A SYNC producer cannot have this counter value.
-        findings.push(if entry.address.index == 0x1019 {
+        // The counter of SYNC cannot have the value: no SYNC is sent with it, and the TPDO waits for it forever.
+        let is_counter = matches!(
+            (entry.address.index, entry.address.sub),
+            (0x1019, 0) | (0x1800..=0x19FF, 6)
+        );
+        findings.push(if is_counter {
             finding.severity_of(Severity::Error)
         } else {
             finding

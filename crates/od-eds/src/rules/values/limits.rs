@@ -140,16 +140,34 @@ const ABOVE: Form = Form {
 impl Outside<'_> {
     /// The finding about it.
     fn finding(&self, rule: &'static Rule, entry: &Entry<'_>) -> Finding {
+        let (at, other, label) = if self.is_limit_wrong(entry) {
+            (self.limit, self.value, "value set here")
+        } else {
+            (self.value, self.limit, "limit set here")
+        };
         let finding = rule
-            .on(entry, self.value.span)
+            .on(entry, at.span)
             .key(self.key)
             .fact("value", self.value.value.clone())
             .fact("limit", self.limit.value.clone())
-            .related(self.limit.span, "limit set here");
+            .related(other.span, label);
         match self.side {
             Key::HighLimit => finding.form(&ABOVE),
             _ => finding,
         }
+    }
+
+    /// Returns whether the limit contradicts more than the value: it allows no other value than one, or depends on the node
+    /// ID as the value does not.
+    fn is_limit_wrong(&self, entry: &Entry<'_>) -> bool {
+        let is_formula = |value: &Value| matches!(value, Value::NodeId(_));
+        let least = entry.data_type.and_then(|own| own.integer_range());
+        let is_single = match (limits(entry), least) {
+            ((Some(low), Some(high)), _) => order(low, high) == Some(Ordering::Equal),
+            ((None, Some(high)), Some((least, _))) => high.integer(1) == Some(least),
+            _ => false,
+        };
+        is_single || is_formula(self.limit) && !is_formula(self.value)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Spellings of a value that have one meaning, but that not every tool reads.
 
 use crate::fact::Key;
-use crate::finding::{Finding, Fixability, Rule};
+use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::scan::section::Text;
 
@@ -12,6 +12,16 @@ const fn spelling(code: &'static str) -> Rule {
         fixability: Fixability::Safe,
         help: "write `{key={right}}`{fix}",
         ..Rule::of(code)
+    }
+}
+
+/// The defaults of a rule about a spelling that CiA 306 does not have: python-canopen loses the value or the file, dcf-tools
+/// and canopen-rs lose the file.
+const fn foreign(code: &'static str) -> Rule {
+    Rule {
+        severity: Error,
+        buildable: true,
+        ..spelling(code)
     }
 }
 
@@ -26,7 +36,7 @@ pub(crate) static W0409: Rule = Rule {
     title: "number with a leading 0 is not octal",
     why: "`08` is not a valid octal number. odkit reads it as decimal; many EDS parsers reject it.",
     says: "odkit reads `{given}` as decimal",
-    ..spelling("W0409")
+    ..foreign("W0409")
 };
 
 pub(crate) static I0410: Rule = Rule {
@@ -57,7 +67,7 @@ pub(crate) static W0420: Rule = Rule {
     title: "number has a suffix or a decimal point",
     why: "`0x10L` and `5.0` are how other languages write integers. odkit reads the integer; many EDS parsers reject it.",
     says: "odkit reads `{given}` as an integer",
-    ..spelling("W0420")
+    ..foreign("W0420")
 };
 
 pub(crate) static W0421: Rule = Rule {
@@ -65,21 +75,21 @@ pub(crate) static W0421: Rule = Rule {
     why: "`true` and `false` are words of other formats. odkit reads them as 1 and 0; many EDS parsers reject them.",
     source: "CiA 306-1, object sections",
     says: "odkit reads `{given}` as a number",
-    ..spelling("W0421")
+    ..foreign("W0421")
 };
 
 pub(crate) static W0422: Rule = Rule {
     title: "hexadecimal number without `0x`",
     why: "`FF` and `1Fh` are how other formats write 0xFF and 0x1F. odkit reads them so; many EDS parsers reject them.",
     says: "odkit reads `{given}` as hexadecimal",
-    ..spelling("W0422")
+    ..foreign("W0422")
 };
 
 pub(crate) static W0423: Rule = Rule {
     title: "decimal comma",
     why: "odkit reads the comma as a decimal point; many EDS parsers reject it.",
     says: "odkit reads `{given}` with a decimal point",
-    ..spelling("W0423")
+    ..foreign("W0423")
 };
 
 pub(crate) static W0424: Rule = Rule {
@@ -87,7 +97,7 @@ pub(crate) static W0424: Rule = Rule {
     why: "Types and object codes are numbers, PDOMapping is 0 or 1, and AccessType is one of six words. odkit reads what the word means; many EDS parsers reject it.",
     source: "CiA 306-1, object sections",
     says: "odkit reads `{given}` as `{right}`",
-    ..spelling("W0424")
+    ..foreign("W0424")
 };
 
 /// The finding about a value that odkit reads, though not every tool does.
