@@ -13,7 +13,7 @@ use od_model::Refused;
 
 use crate::config::Config;
 use crate::failure::Failure;
-use crate::network;
+use crate::network::Files;
 use frames::Frame;
 
 /// Language server for EDS, DCF and XDD files; an editor starts it (Language Server Protocol 3.17)
@@ -123,22 +123,26 @@ impl Host for Disk {
         Ok(())
     }
 
-    fn network(
-        &self,
-        path: &str,
-        text: &str,
-        find: &dyn Fn(&str) -> Option<Vec<u8>>,
-    ) -> Result<Vec<Finding>, String> {
-        // An editor opens other YAML files, too.
-        let is_list = path.to_ascii_lowercase().ends_with(".cpj");
-        if !is_list && !text.contains("dcf:") {
-            return Ok(Vec::new());
-        }
-        network::findings(path, text, &|path: &Path| {
+    fn network<'a>(
+        &'a self,
+        path: &'a str,
+        find: &'a dyn Fn(&str) -> Option<Vec<u8>>,
+    ) -> Box<dyn Fn(&str) -> Vec<Finding> + 'a> {
+        let files = Files::default();
+        let open = move |path: &Path| {
             // Without `.`, as the path of an open file.
             let path: PathBuf = path.components().collect();
             let bytes = path.to_str().and_then(find);
             bytes.ok_or_else(|| "it cannot be read".into())
+        };
+        Box::new(move |text| {
+            // An editor opens other YAML files, too.
+            let is_list = path.to_ascii_lowercase().ends_with(".cpj");
+            if is_list || text.contains("dcf:") {
+                files.findings(path, text, &open)
+            } else {
+                Vec::new()
+            }
         })
     }
 }

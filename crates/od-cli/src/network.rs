@@ -4,7 +4,7 @@ mod project;
 mod table;
 mod yaml;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -57,8 +57,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.fix || args.unsafe_fixes {
         fix_all(args, &mut document)?;
     }
-    let networks = read(&args.file, document.text(), &of_disk);
-    let networks = networks.map_err(|why| Failure::Failed(format!("{}: {why}", args.file)))?;
+    let networks = Files::default().networks(&args.file, document.text(), &of_disk);
     let several = networks.len() > 1;
     let mut errors = 0;
     for (number, network) in (1..).zip(networks) {
@@ -82,17 +81,12 @@ fn fix_all(args: &Args, document: &mut Document) -> Result<(), Failure> {
         Applicability::Safe
     };
     let config = Config::of(&args.file)?;
-    let found = |document: &Document| {
-        let mut findings = findings(&args.file, document.text(), &of_disk).ok()?;
+    let files = Files::default();
+    let done = fix::fix(document, level, |document| {
+        let mut findings = files.findings(&args.file, document.text(), &of_disk);
         config.apply(&args.file, &mut findings);
-        Some(findings)
-    };
-    let Some(before) = found(document) else {
-        return Ok(());
-    };
-    // A fix with which the file cannot be read removes no finding.
-    let find = |document: &Document| found(document).unwrap_or_else(|| before.clone());
-    let done = fix::fix(document, level, find);
+        findings
+    });
     if done.edits > 0 {
         let failed = |why| Failure::Failed(format!("{}: {why}", args.file));
         fixed::write(&args.file, done.document.bytes()).map_err(failed)?;
@@ -103,39 +97,11 @@ fn fix_all(args: &Args, document: &mut Document) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the findings about a project or node list with this text; `open` reads the files that it names.
-///
-/// # Errors
-/// A file cannot be read, in words; the text begins with its line, if it has one.
-pub(crate) fn findings(path: &str, text: &str, open: Open<'_>) -> Result<Vec<Finding>, String> {
-    let networks = read(path, text, open)?.into_iter();
-    Ok(networks
-        .flat_map(|mut network| prepare(&mut network, false).findings)
-        .collect())
-}
-
 /// Reads a file that a project or node list names.
 pub(crate) type Open<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, String>;
 
 fn of_disk(path: &Path) -> Result<Vec<u8>, String> {
     files::read(path).map_err(|error| read_error(&error))
-}
-
-/// Reads the networks of a project or node list.
-fn read(path: &str, text: &str, open: Open<'_>) -> Result<Vec<Network>, String> {
-    let path = Path::new(path);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let known = RefCell::new(Files::default());
-    let load = |name: &str| known.borrow_mut().load(folder, name, open);
-    let is_list = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
-    if is_list {
-        let lists = network::node_lists(text, &load)?;
-        Ok(lists.into_iter().map(Network::from).collect())
-    } else {
-        Ok(vec![project::read(text, &load)?])
-    }
 }
 
 /// The results of a network.
@@ -147,9 +113,18 @@ struct Prepared {
     sync_period: u32,
 }
 
-/// Configures the nodes of a network, adds its master as a node, and checks it.
+/// Configures the nodes of a network, adds its master as a node, and checks it. The nodes of a network that is not complete are
+/// not compared: the others may need those that are missing.
 fn prepare(network: &mut Network, remote_pdo: bool) -> Prepared {
     let mut outputs = Vec::new();
+    if !network.is_complete {
+        return Prepared {
+            outputs,
+            findings: std::mem::take(&mut network.findings),
+            bit_rate: None,
+            sync_period: 0,
+        };
+    }
     for node in &network.nodes {
         if !node.writes.is_empty() {
             outputs.push((format!("{}.bin", node.name), network::bytes(&node.writes)));
@@ -228,7 +203,9 @@ fn one(
     let colours = output::error_colours();
     let text = report::render(&args.file, text, &findings, &Names::new(), colours);
     output::note_coloured(&text);
-    output::print(&table::table(&network, bit_rate, sync_period, &outputs))?;
+    if network.is_complete {
+        output::print(&table::table(&network, bit_rate, sync_period, &outputs))?;
+    }
     Ok(findings
         .iter()
         .filter(|finding| Finding::is_error(finding))
@@ -238,21 +215,52 @@ fn one(
 /// Limit of values in the files of all nodes together, which each node has for itself.
 const MAX_VALUES: usize = 500_000;
 
-/// The files that the nodes name; many nodes have the same.
+/// The files that the nodes name, each read once: many nodes have the same, and fixes are tried with the same files.
 #[derive(Default)]
-struct Files {
-    read: BTreeMap<String, Result<Description, String>>,
-    values: usize,
+pub(crate) struct Files {
+    read: RefCell<BTreeMap<String, Result<Description, String>>>,
 }
 
 impl Files {
-    /// The description of a node.
-    fn load(&mut self, folder: &Path, name: &str, open: Open<'_>) -> Result<Description, String> {
-        let found = self.read.entry(name.into());
+    /// Returns the findings about a project or node list with this text; `open` reads the files that it names.
+    pub(crate) fn findings(&self, path: &str, text: &str, open: Open<'_>) -> Vec<Finding> {
+        let networks = self.networks(path, text, open).into_iter();
+        networks
+            .flat_map(|mut network| prepare(&mut network, false).findings)
+            .collect()
+    }
+
+    /// Reads the networks of a project or node list.
+    fn networks(&self, path: &str, text: &str, open: Open<'_>) -> Vec<Network> {
+        let path = Path::new(path);
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let values = Cell::new(0);
+        let load = |name: &str| self.load(folder, name, open, &values);
+        let is_list = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
+        if is_list {
+            let lists = network::node_lists(text, &load);
+            lists.into_iter().map(Network::from).collect()
+        } else {
+            vec![project::read(text, &load)]
+        }
+    }
+
+    /// The description of a node; `values` counts those of all nodes.
+    fn load(
+        &self,
+        folder: &Path,
+        name: &str,
+        open: Open<'_>,
+        values: &Cell<usize>,
+    ) -> Result<Description, String> {
+        let mut read = self.read.borrow_mut();
+        let found = read.entry(name.into());
         let description = found.or_insert_with(|| load(folder, name, open)).as_ref();
         let description = description.map_err(Clone::clone)?;
-        self.values += description.entries().count();
-        if self.values > MAX_VALUES {
+        values.set(values.get() + description.entries().count());
+        if values.get() > MAX_VALUES {
             return Err(format!(
                 "the files of all nodes have more than {MAX_VALUES} values; check the nodes in parts"
             ));

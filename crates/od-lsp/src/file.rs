@@ -43,7 +43,7 @@ pub(crate) struct File {
     /// The file below an overlay.
     pub(crate) base: Option<Base>,
     /// The findings about a network, with the files that it names.
-    pub(crate) network: Option<Result<Vec<Finding>, String>>,
+    pub(crate) network: Option<Vec<Finding>>,
     /// The file on the disk without its text, if its encoding differs from that of the client's text.
     disk: Option<Document>,
     seen: OnceCell<Seen>,
@@ -216,18 +216,7 @@ impl File {
         if self.kind == Kind::NodeList {
             seen.layout = Layout::of(self.str());
         }
-        match &self.network {
-            Some(Ok(findings)) => seen.findings.clone_from(findings),
-            Some(Err(why)) => {
-                let line = why.strip_prefix("line ").and_then(|rest| {
-                    let (line, _) = rest.split_once(':')?;
-                    line.parse::<usize>().ok()
-                });
-                let place = line.map_or(0..0, |line| self.text.line(line.saturating_sub(1)));
-                seen.problems.push((place, why.clone()));
-            }
-            None => {}
-        }
+        seen.findings = self.network.clone().unwrap_or_default();
         seen.misused = host.judge(&self.path, &mut seen.findings).err();
         seen
     }

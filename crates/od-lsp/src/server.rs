@@ -310,7 +310,7 @@ impl Server {
             }
             Kind::NodeList | Kind::Project => {
                 let find = |path: &str| self.find(path).map(String::into_bytes);
-                network = Some(self.host.network(&file.path, file.str(), &find));
+                network = Some(self.host.network(&file.path, &find)(file.str()));
             }
             Kind::Eds | Kind::Xdd | Kind::Rust => return,
         }

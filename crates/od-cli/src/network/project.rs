@@ -6,8 +6,9 @@ use std::collections::BTreeSet;
 use od_eds::network::keys::{Keys, OF_MASTER, OF_OPTIONS, OF_PDO, OF_SLAVE};
 use od_eds::network::{
     Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, Setting, Unfit,
-    configure, consume_heartbeats, key_twice, misspelled_key, no_sync, not_mappable, read_only,
-    text_of_flag, unfit_values, unusual_bit_rate,
+    configure, consume_heartbeat, key_twice, missing_key, missing_section, misspelled_key, no_pdo,
+    no_sync, not_a_number, not_mappable, read_only, text_of_flag, unfit, unfit_values, unreadable,
+    unusable_file, unusual_bit_rate,
 };
 use od_eds::{Finding, Span};
 use od_model::Address;
@@ -28,6 +29,18 @@ pub(super) struct Network {
     pub(super) nodes: Vec<Node>,
     /// Findings about the text.
     pub(super) findings: Vec<Finding>,
+    /// Whether the master and all nodes could be read.
+    pub(super) is_complete: bool,
+}
+
+impl Network {
+    /// A network that cannot be read, because of this error.
+    fn of_error(error: Finding) -> Self {
+        Self {
+            findings: vec![error],
+            ..Self::default()
+        }
+    }
 }
 
 impl From<NodeList> for Network {
@@ -39,9 +52,16 @@ impl From<NodeList> for Network {
             bit_rate: list.bit_rate,
             nodes: list.nodes,
             findings: list.findings,
+            is_complete: list.is_complete,
         }
     }
 }
+
+/// The finding about what ends the reading of a node or the master.
+type Problem = Box<Finding>;
+
+/// Node IDs of a network. A text with more problems is not a project.
+const MAX_NODES: usize = 127;
 
 /// The keys of a slave and of a master that are flags.
 const FLAGS: &[&str] = &[
@@ -60,8 +80,8 @@ const FLAGS: &[&str] = &[
 #[derive(Clone, Copy)]
 struct Section<'a> {
     name: &'a str,
-    /// Line of the name.
-    line: u32,
+    /// Place of the name.
+    place: Span,
     yaml: &'a Yaml,
     /// The whole project.
     whole: &'a Yaml,
@@ -71,21 +91,25 @@ impl<'a> Section<'a> {
     /// A part of the section, with keys of its own.
     const fn part(self, yaml: &'a Yaml) -> Self {
         Self {
-            line: yaml.span.line,
+            place: yaml.span,
             yaml,
             ..self
         }
     }
 
-    fn wrong(&self, key: &str) -> String {
-        let line = self.line_of(key);
-        format!("line {line}: {}: {key} is not valid", self.name)
+    /// The problem of a value that is not a number of this type.
+    fn wrong<T: TryFrom<i128>>(&self, key: &str, value: &Yaml) -> Problem {
+        let types = [u8::MAX.into(), u16::MAX.into(), u32::MAX];
+        let mut fitting = types.into_iter().rev();
+        let most = fitting.find(|most| T::try_from((*most).into()).is_ok());
+        let has_limit = T::try_from(i128::MAX).is_err();
+        self.wrong_number(key, value, most.filter(|_| has_limit))
     }
 
-    /// The line of a key's value; that of the section if the key is missing.
-    fn line_of(&self, key: &str) -> u32 {
-        let value = self.yaml.get(key);
-        value.map_or(self.line, |value| value.span.line)
+    fn wrong_number(&self, key: &str, value: &Yaml, most: Option<u32>) -> Problem {
+        let is_number = value.integer().is_some();
+        let finding = not_a_number(self.name, key, &value.text(), is_number, most, value.span);
+        Box::new(finding)
     }
 
     /// A PDO below `rpdo` or `tpdo`: its number and its value.
@@ -94,23 +118,18 @@ impl<'a> Section<'a> {
         entries.find(|(own, _)| own.integer() == Some(number.into()))
     }
 
-    /// The part of the text with a setting: its value, or the number of a PDO; `None` if the project does not have it.
-    fn place_of(&self, setting: Setting) -> Option<&'a Yaml> {
-        match setting {
-            Setting::Key(key) => self.yaml.get(key),
-            Setting::Pdo(key, number) => self.pdo_of(key, number).map(|(own, _)| own),
-            Setting::Mapped(key, number, at) => {
-                self.pdo_of(key, number)?.1.get("mapping")?.list().get(at)
-            }
-            Setting::Sdo(at) => self.yaml.get("sdo")?.list().get(at),
-        }
+    /// The object at this position in the mapping of a PDO.
+    fn mapped(&self, key: &str, number: u16, at: usize) -> Option<&'a Yaml> {
+        self.pdo_of(key, number)?.1.get("mapping")?.list().get(at)
     }
 
-    /// An error about a setting that the device cannot have.
-    fn unfit(&self, unfit: Unfit) -> String {
-        let place = self.place_of(unfit.setting);
-        let line = place.map_or(self.line, |place| place.span.line);
-        format!("line {line}: {}", unfit.why)
+    /// The problem of a value that the device of the node cannot have.
+    fn unfit(&self, wrong: &Unfit, node: &Node, wanted: &Configuration) -> Problem {
+        let place = self.place_of_write(wrong.address, wanted);
+        let index = place.get("index");
+        let text = index.map(|index| (index.text(), index.span));
+        let index = text.as_ref().map(|(text, span)| (text.as_str(), *span));
+        Box::new(unfit(node, wrong, place.span, index))
     }
 
     /// The places of the settings by which nodes can contradict each other.
@@ -128,13 +147,15 @@ impl<'a> Section<'a> {
             numbers.map(move |number| Setting::Pdo(key, number))
         });
         let all = KEYS.into_iter().map(Setting::Key).chain(pdos);
-        // Nodes contradict each other by the CAN-ID of a PDO.
-        let can_id = |setting| match setting {
-            Setting::Pdo(key, number) => self.pdo_of(key, number)?.1.get("cob_id"),
-            _ => None,
-        };
         all.filter_map(|setting| {
-            let place = can_id(setting).or_else(|| self.place_of(setting))?;
+            let place = match setting {
+                Setting::Key(key) => self.yaml.get(key)?,
+                // Nodes contradict each other by the CAN-ID of a PDO.
+                Setting::Pdo(key, number) => {
+                    let (own, pdo) = self.pdo_of(key, number)?;
+                    pdo.get("cob_id").unwrap_or(own)
+                }
+            };
             Some((setting, place.span))
         })
         .collect()
@@ -149,7 +170,7 @@ impl<'a> Section<'a> {
             .flat_map(|(key, pdos)| pdos.iter().map(|(number, pdo)| (*key, *number, pdo)))
         {
             for (at, address) in pdo.mapping.iter().flatten().enumerate() {
-                let entry = self.place_of(Setting::Mapped(key, number, at));
+                let entry = self.mapped(key, number, at);
                 let span = entry.map(|entry| entry.span).unwrap_or_default();
                 found.extend(not_mappable(node, key == "rpdo", *address, span));
             }
@@ -161,7 +182,7 @@ impl<'a> Section<'a> {
     fn read_only(&self, node: &Node, wanted: &Configuration) -> Vec<Finding> {
         let writes = wanted.sdo.iter().enumerate();
         let found = writes.filter_map(|(at, (address, _))| {
-            let entry = self.place_of(Setting::Sdo(at));
+            let entry = self.list("sdo").get(at);
             read_only(
                 node,
                 *address,
@@ -171,8 +192,8 @@ impl<'a> Section<'a> {
         found.collect()
     }
 
-    /// The place of what writes an object; that of the name if no setting does.
-    fn place_of_write(&self, address: Address, wanted: &Configuration) -> Span {
+    /// What writes an object; the whole section if no setting does.
+    fn place_of_write(&self, address: Address, wanted: &Configuration) -> &'a Yaml {
         let of_pdo = |key| {
             let (number, pdo) = self.pdo_of(key, (address.index & 0x1FF) + 1)?;
             let is_mapping = address.index & 0x200 != 0;
@@ -193,7 +214,7 @@ impl<'a> Section<'a> {
         };
         let sdo = wanted.sdo.iter().position(|(own, _)| *own == address);
         let found = match (sdo, address.index) {
-            (Some(at), _) => self.place_of(Setting::Sdo(at)),
+            (Some(at), _) => self.list("sdo").get(at),
             (_, 0x100C) => self.yaml.get("guard_time"),
             (_, 0x100D) => self.yaml.get("life_time_factor"),
             (_, 0x1012) => self.yaml.get("time_cob_id"),
@@ -203,25 +224,27 @@ impl<'a> Section<'a> {
             (_, 0x1800..=0x1BFF) => of_pdo("tpdo"),
             _ => None,
         };
-        found.map_or(self.yaml.span, |yaml| yaml.span)
+        found.unwrap_or(self.yaml)
     }
 
     /// A number of a key; `None` if the key is missing.
-    fn number<T: TryFrom<i128>>(&self, key: &str) -> Result<Option<T>, String> {
+    fn number<T: TryFrom<i128>>(&self, key: &str) -> Result<Option<T>, Problem> {
         let Some(value) = self.yaml.get(key) else {
             return Ok(None);
         };
         let number = value.integer().and_then(|number| T::try_from(number).ok());
-        number.map(Some).ok_or_else(|| self.wrong(key))
+        number.map(Some).ok_or_else(|| self.wrong::<T>(key, value))
     }
 
     /// The node ID.
-    fn node_id(&self) -> Result<Option<u8>, String> {
-        let given = self.number("node_id")?;
-        match given {
-            None | Some(1..=127) => Ok(given),
-            Some(_) => Err(format!("{}: write 1 to 127", self.wrong("node_id"))),
-        }
+    fn node_id(&self) -> Result<Option<u8>, Problem> {
+        let Some(value) = self.yaml.get("node_id") else {
+            return Ok(None);
+        };
+        let id = value.integer().and_then(|number| u8::try_from(number).ok());
+        let id = id.filter(|id| (1..=127).contains(id));
+        id.map(Some)
+            .ok_or_else(|| self.wrong_number("node_id", value, Some(127)))
     }
 
     /// The bit rate in kbit/s; `None` if it is missing or not a number.
@@ -229,11 +252,12 @@ impl<'a> Section<'a> {
         self.yaml.get("baudrate")?.integer()?.try_into().ok()
     }
 
-    fn real(&self, key: &str) -> Result<Option<f64>, String> {
+    fn real(&self, key: &str) -> Result<Option<f64>, Problem> {
         let Some(value) = self.yaml.get(key) else {
             return Ok(None);
         };
-        value.real().map(Some).ok_or_else(|| self.wrong(key))
+        let real = value.real().map(Some);
+        real.ok_or_else(|| self.wrong_number(key, value, None))
     }
 
     fn flag(&self, key: &str) -> Option<bool> {
@@ -244,29 +268,25 @@ impl<'a> Section<'a> {
         self.yaml.get(key).map(Yaml::text)
     }
 
-    /// The entries below a key, whose own keys are numbers.
-    fn numbered<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, &'a Yaml)>, String> {
-        let entries = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
-        let entries = entries.map(|(number, value)| {
-            let number = number.integer().and_then(|number| T::try_from(number).ok());
-            Ok((number.ok_or_else(|| self.wrong(key))?, value))
-        });
-        entries.collect()
-    }
-
     /// The entries below a key, whose own keys and values are numbers.
-    fn numbers<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, u32)>, String> {
-        let entries = self.numbered(key)?.into_iter().map(|(sub, value)| {
+    fn numbers<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, u32)>, Problem> {
+        let entries = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
+        let entries = entries.map(|(own, value)| {
+            let sub = own.integer().and_then(|sub| T::try_from(sub).ok());
             let number = value
                 .integer()
                 .and_then(|number| u32::try_from(number).ok());
-            Ok((sub, number.ok_or_else(|| self.wrong(key))?))
+            Ok((
+                sub.ok_or_else(|| self.wrong::<T>(key, own))?,
+                number.ok_or_else(|| self.wrong::<u32>(key, value))?,
+            ))
         });
         entries.collect()
     }
 
-    fn address(&self) -> Result<Address, String> {
-        let index = self.number("index")?.ok_or_else(|| self.wrong("index"))?;
+    fn address(&self) -> Result<Address, Problem> {
+        let missing = || missing_key(self.name, "index", "0x2000", self.place);
+        let index = self.number("index")?.ok_or_else(missing)?;
         Ok(Address::new(index, self.number("sub_index")?.unwrap_or(0)))
     }
 
@@ -274,7 +294,7 @@ impl<'a> Section<'a> {
         self.yaml.get(key).map_or(&[], Yaml::list)
     }
 
-    fn pdo(&self) -> Result<PdoConfiguration, String> {
+    fn pdo(&self) -> Result<PdoConfiguration, Problem> {
         let cob_id = match self.text("cob_id").as_deref() {
             None => None,
             Some("auto") => Some(None),
@@ -296,11 +316,12 @@ impl<'a> Section<'a> {
         })
     }
 
-    fn pdos(&self, key: &str) -> Result<Vec<(u16, PdoConfiguration)>, String> {
-        let pdos = self.numbered(key)?.into_iter().map(|(number, yaml)| {
-            if !(1..=512).contains(&number) {
-                return Err(self.wrong(key));
-            }
+    fn pdos(&self, key: &str) -> Result<Vec<(u16, PdoConfiguration)>, Problem> {
+        let entries = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
+        let pdos = entries.map(|(own, yaml)| {
+            let number = own.integer().and_then(|number| u16::try_from(number).ok());
+            let number = number.filter(|number| (1..=512).contains(number));
+            let number = number.ok_or_else(|| no_pdo(self.name, key, &own.text(), own.span))?;
             Ok((number, self.part(yaml).pdo()?))
         });
         pdos.collect()
@@ -345,7 +366,7 @@ impl<'a> Section<'a> {
         findings
     }
 
-    fn configuration(&self) -> Result<Configuration, String> {
+    fn configuration(&self) -> Result<Configuration, Problem> {
         let sdo = self.list("sdo").iter().map(|yaml| {
             let one = self.part(yaml);
             Ok((one.address()?, one.number("value")?.unwrap_or(0)))
@@ -370,7 +391,7 @@ impl<'a> Section<'a> {
             software_file: self.text("software_file").unwrap_or_default(),
             software_version: self.number("software_version")?.unwrap_or(0),
             restore_configuration: self.number("restore_configuration")?.unwrap_or(0),
-            sdo: sdo.collect::<Result<_, String>>()?,
+            sdo: sdo.collect::<Result<_, Problem>>()?,
         })
     }
 
@@ -378,39 +399,66 @@ impl<'a> Section<'a> {
     fn node(
         &self,
         load: &dyn Fn(&str) -> Result<od_eds::Description, String>,
+        master: &Master,
         settings: &mut ProjectSettings,
         findings: &mut Vec<Finding>,
-    ) -> Result<Node, String> {
+    ) -> Result<Node, Problem> {
         let name = self.name;
-        let line = self.line_of("dcf");
-        let path = self
-            .text("dcf")
-            .ok_or_else(|| format!("line {line}: {name}: the key `dcf` is missing"))?;
-        let description =
-            load(&path).map_err(|why| format!("line {line}: {name}: {path}: {why}"))?;
+        let dcf = self.yaml.get("dcf");
+        let dcf = dcf.ok_or_else(|| missing_key(name, "dcf", "device.eds", self.place))?;
+        let path = dcf.text();
+        let description = load(&path).map_err(|why| unusable_file(name, &path, &why, dcf.span))?;
         let id = self
             .node_id()?
             .or(description.commissioned_node_id())
             .filter(|id| (1..=127).contains(id));
-        let Some(id) = id else {
-            let line = self.line;
-            return Err(format!(
-                "line {line}: {name}: the node ID is missing; add `node_id`, 1 to 127"
-            ));
-        };
+        let id = id.ok_or_else(|| missing_key(name, "node_id", "2", self.place))?;
         let mut node = Node::new(name.into(), id, description);
         let wanted = self.configuration()?;
         findings.extend(self.unmapped(&node, &wanted));
         findings.extend(self.read_only(&node, &wanted));
-        configure(&mut node, &wanted, settings).map_err(|unfit| self.unfit(unfit))?;
-        let place = |address| self.place_of_write(address, &wanted);
+        configure(&mut node, &wanted, settings)
+            .map_err(|wrong| self.unfit(&wrong, &node, &wanted))?;
+        let place = |address| self.place_of_write(address, &wanted).span;
         findings.extend(unfit_values(&node, &place));
+        consume_heartbeat(master, &mut node).map_err(|wrong| self.unfit(&wrong, &node, &wanted))?;
+        (node.place, node.places) = (self.place, self.places());
         Ok(node)
     }
 
-    fn master(&self, settings: &ProjectSettings) -> Result<Master, String> {
+    /// The settings of a project for all nodes.
+    fn settings(&self) -> Result<ProjectSettings, Problem> {
+        let default = ProjectSettings::default();
+        Ok(ProjectSettings {
+            dcf_path: self.text("dcf_path").unwrap_or_default(),
+            heartbeat_multiplier: self
+                .real("heartbeat_multiplier")?
+                .unwrap_or(default.heartbeat_multiplier),
+            retry_factor: self.number("retry_factor")?.unwrap_or(default.retry_factor),
+            ..default
+        })
+    }
+
+    /// The findings about the keys of the master.
+    fn findings_of_master(&self) -> Vec<Finding> {
+        let mut findings = self.misspelled(self.yaml, OF_MASTER);
+        findings.extend(self.texts_of_flags(self.yaml, FLAGS));
+        if let Some(rate) = self.yaml.get("baudrate") {
+            findings.extend(unusual_bit_rate(&rate.text(), self.bit_rate(), rate.span));
+        }
+        let period = self.yaml.get("sync_period").and_then(Yaml::integer);
+        let of_sync = ["sync_window", "sync_overflow"].into_iter();
+        let of_sync = of_sync.filter(|_| period.unwrap_or(0) <= 0);
+        findings.extend(of_sync.filter_map(|key| {
+            let value = self.yaml.get(key)?;
+            (value.integer() != Some(0)).then(|| no_sync(key, value.span))
+        }));
+        findings
+    }
+
+    fn master(&self, settings: &ProjectSettings) -> Result<Master, Problem> {
         let default = Master::default();
-        let number = |key, default: u32| Ok::<u32, String>(self.number(key)?.unwrap_or(default));
+        let number = |key, default: u32| Ok::<u32, Problem>(self.number(key)?.unwrap_or(default));
         let mut identity = [0; 4];
         for (at, key) in [
             "vendor_id",
@@ -503,60 +551,60 @@ fn owner(whole: &Yaml, place: Span) -> Option<String> {
 }
 
 /// Reads a project; `load` reads the description at a path.
-///
-/// # Errors
-/// The text is not a project, a description cannot be read, or a value is not valid; in words.
 pub(super) fn read(
     text: &str,
     load: &dyn Fn(&str) -> Result<od_eds::Description, String>,
-) -> Result<Network, String> {
-    let (whole, twice) = Yaml::read(text)?;
-    let mut settings = ProjectSettings::default();
-    let twice = twice.iter();
-    let twice = twice.map(|(key, first)| key_twice(&key.text(), key.span, *first));
+) -> Network {
+    let (whole, twice) = match Yaml::read(text) {
+        Ok(read) => read,
+        Err((why, at)) => return Network::of_error(unreadable(&why, at)),
+    };
+    let Some(master) = whole.get("master") else {
+        return Network::of_error(missing_section("`master`"));
+    };
+    let twice = twice.iter().map(|one| {
+        let key = &one.key;
+        key_twice(&key.text(), key.span, one.first, one.is_line, one.is_same)
+    });
     let mut findings: Vec<Finding> = twice.collect();
+    let mut problems = Vec::new();
+    let mut settings = ProjectSettings::default();
     if let Some(yaml) = whole.get("options") {
         let own = Section {
             name: "options",
-            line: yaml.span.line,
+            place: yaml.span,
             yaml,
             whole: &whole,
         };
         findings.extend(own.misspelled(yaml, OF_OPTIONS));
-        settings.dcf_path = own.text("dcf_path").unwrap_or_default();
-        settings.heartbeat_multiplier = own.real("heartbeat_multiplier")?.unwrap_or(3.0);
-        settings.retry_factor = own.number("retry_factor")?.unwrap_or(3);
+        match own.settings() {
+            Ok(own) => settings = own,
+            Err(problem) => problems.push(problem),
+        }
     }
-    let master = whole
-        .get("master")
-        .ok_or("the section `master` is missing; add it with its `node_id`")?;
     let own = Section {
         name: "master",
-        line: master.span.line,
+        place: master.span,
         yaml: master,
         whole: &whole,
     };
     let master_places = (master.span, own.places());
-    findings.extend(own.misspelled(master, OF_MASTER));
-    findings.extend(own.texts_of_flags(master, FLAGS));
-    if let Some(rate) = master.get("baudrate") {
-        findings.extend(unusual_bit_rate(&rate.text(), own.bit_rate(), rate.span));
-    }
-    let has_sync = own.number("sync_period")?.unwrap_or(0) > 0;
-    let of_sync = ["sync_window", "sync_overflow"].into_iter();
-    findings.extend(of_sync.filter(|_| !has_sync).filter_map(|key| {
-        let value = master.get(key)?;
-        (value.integer() != Some(0)).then(|| no_sync(key, value.span))
-    }));
-    let master = own.master(&settings)?;
+    findings.extend(own.findings_of_master());
+    let master = own.master(&settings).unwrap_or_else(|problem| {
+        problems.push(problem);
+        Master::default()
+    });
     let mut nodes = Vec::new();
     // Where the misspelled keys are that are reported.
     let mut seen = BTreeSet::new();
     for (key, yaml) in slaves(&whole) {
+        if problems.len() > MAX_NODES {
+            break;
+        }
         let name = key.text();
         let section = Section {
             name: &name,
-            line: key.span.line,
+            place: key.span,
             yaml: &yaml,
             whole: &whole,
         };
@@ -564,16 +612,19 @@ pub(super) fn read(
         let misspelled = section.misspelled_of_slave().into_iter();
         let is_new = |own: &Finding| own.span().is_none_or(|span| seen.insert(span.start));
         findings.extend(misspelled.filter(is_new));
-        let mut node = section.node(load, &mut settings, &mut findings)?;
-        (node.place, node.places) = (key.span, section.places());
-        nodes.push(node);
+        match section.node(load, &master, &mut settings, &mut findings) {
+            Ok(node) => nodes.push(node),
+            Err(problem) => problems.push(problem),
+        }
     }
-    consume_heartbeats(&master, &mut nodes)?;
-    Ok(Network {
+    let is_complete = problems.is_empty();
+    findings.extend(problems.into_iter().map(|problem| *problem));
+    Network {
         master: Some(master),
         master_places,
         nodes,
         findings,
+        is_complete,
         ..Network::default()
-    })
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use od_eds::Span;
-use saphyr_parser::{Event, Parser, ScalarStyle};
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle};
 
 /// Maximum number of values of a text, including those that aliases repeat.
 const LIMIT: usize = 100_000;
@@ -42,31 +42,35 @@ impl Yaml {
         }
     }
 
-    /// Reads the first document of a text, and its keys that are given twice: each with the first one.
+    /// Reads the first document of a text, and its keys that are given twice.
     ///
     /// # Errors
-    /// A sentence with the line, if the text is not YAML or is too large.
-    pub(super) fn read(text: &str) -> Result<(Self, Vec<(Self, Span)>), String> {
-        let mut tree = Tree::default();
+    /// A sentence and a place, if the text is not YAML or is too large.
+    pub(super) fn read(text: &str) -> Result<(Self, Vec<Twice>), (String, Span)> {
+        let mut tree = Tree::new(text);
         let mut places = Places::new(text);
         for event in Parser::new_from_str(text) {
-            let (event, range) = event.map_err(|error| error.to_string())?;
-            let (start, end) = (range.start, range.end);
-            let from = places.byte(start.index());
+            let (event, range) = event.map_err(|error| {
+                let at = places.span(error.marker());
+                (error.info().to_owned(), at)
+            })?;
+            let from = places.span(&range.start);
             let span = Span {
-                start: from,
-                // The parser puts the end of a block at the beginning of the next value.
+                // The parser puts the end of a block at the beginning of the next value, and that of a quoted text there, too.
                 end: match event {
-                    Event::Scalar(..) => places.byte(end.index()),
-                    _ => from,
+                    Event::Scalar(..) => {
+                        let end = places.byte(range.end.index());
+                        let scalar = &text[from.start as usize..end as usize];
+                        from.start + quoted(scalar).map_or(scalar.len(), str::len) as u32
+                    }
+                    _ => from.end,
                 },
-                line: start.line() as u32,
-                column: start.col() as u32 + 1,
+                ..from
             };
             match tree.take(event, span) {
                 Ok(Some(whole)) => return Ok((whole, tree.twice)),
                 Ok(None) => {}
-                Err(why) => return Err(format!("line {}: {why}", span.line)),
+                Err(why) => return Err((why, span)),
             }
         }
         let nothing = Self {
@@ -163,6 +167,24 @@ impl Yaml {
     }
 }
 
+/// The quoted text at the beginning of a text, with its quotes; `None` if there is none.
+fn quoted(text: &str) -> Option<&str> {
+    let quote = text
+        .chars()
+        .next()
+        .filter(|quote| matches!(quote, '"' | '\''))?;
+    let mut rest = text.char_indices().skip(1).peekable();
+    while let Some((at, char)) = rest.next() {
+        match (quote, char) {
+            ('"', '\\') => drop(rest.next()),
+            ('\'', '\'') if rest.peek().is_some_and(|(_, next)| *next == '\'') => drop(rest.next()),
+            (quote, char) if quote == char => return text.get(..=at),
+            _ => {}
+        }
+    }
+    None
+}
+
 /// Converts places in characters into places in bytes. The places must come in the order of the text.
 struct Places<'a> {
     text: &'a str,
@@ -184,6 +206,17 @@ impl<'a> Places<'a> {
         self.chars = self.chars.max(char);
         self.bytes as u32
     }
+
+    /// The place at a mark of the parser, without a length.
+    fn span(&mut self, at: &Marker) -> Span {
+        let byte = self.byte(at.index());
+        Span {
+            start: byte,
+            end: byte,
+            line: at.line() as u32,
+            column: at.col() as u32 + 1,
+        }
+    }
 }
 
 /// A list or mapping that is not complete yet.
@@ -194,15 +227,36 @@ struct Open {
     values: Vec<Yaml>,
 }
 
-#[derive(Default)]
-struct Tree {
+/// A key that its mapping has before.
+pub(super) struct Twice {
+    pub(super) key: Yaml,
+    /// The place of the key that it has before, whose value is not used.
+    pub(super) first: Span,
+    /// Whether that key and its value are the only content of a line.
+    pub(super) is_line: bool,
+    /// Whether both have the same value.
+    pub(super) is_same: bool,
+}
+
+struct Tree<'t> {
+    text: &'t str,
     open: Vec<Open>,
     anchors: BTreeMap<usize, Yaml>,
     size: usize,
-    twice: Vec<(Yaml, Span)>,
+    twice: Vec<Twice>,
 }
 
-impl Tree {
+impl<'t> Tree<'t> {
+    const fn new(text: &'t str) -> Self {
+        Self {
+            text,
+            open: Vec::new(),
+            anchors: BTreeMap::new(),
+            size: 0,
+            twice: Vec::new(),
+        }
+    }
+
     /// Handles the next event; returns the whole value when it is complete.
     fn take(&mut self, event: Event<'_>, span: Span) -> Result<Option<Yaml>, String> {
         let (anchor, value) = match event {
@@ -233,7 +287,7 @@ impl Tree {
             Event::SequenceEnd | Event::MappingEnd => match self.open.pop() {
                 Some(open) => {
                     let value = if open.is_map {
-                        map(open.values, &mut self.twice)?
+                        self.map(open.values)?
                     } else {
                         Value::List(open.values)
                     };
@@ -259,41 +313,65 @@ impl Tree {
             None => Ok(Some(value)),
         }
     }
+
+    /// A mapping from alternating keys and values: the last of equal keys is used, and `<<` adds missing
+    /// entries of other mappings.
+    fn map(&mut self, values: Vec<Yaml>) -> Result<Value, String> {
+        let mut entries = Entries::default();
+        let mut merged = Vec::new();
+        let mut values = values.into_iter();
+        while let (Some(key), Some(value)) = (values.next(), values.next()) {
+            if key.value == Value::Text("<<".into()) {
+                match value.value {
+                    Value::Map(others) => merged.extend(others),
+                    Value::List(lists) => {
+                        merged.extend(lists.into_iter().flat_map(|list| list.entries().to_vec()));
+                    }
+                    _ => return Err("`<<` needs a mapping".into()),
+                }
+            } else {
+                if let Some((first, before)) = entries.get(&key) {
+                    self.twice.push(Twice {
+                        key: key.clone(),
+                        first: first.span,
+                        is_line: is_line(self.text, first, before),
+                        is_same: *before == value,
+                    });
+                }
+                entries.set(key, value);
+            }
+        }
+        // Merged entries come first, as in PyYAML.
+        let own = std::mem::take(&mut entries);
+        for (key, value) in merged {
+            if !entries.has(&key) {
+                entries.set(key, value);
+            }
+        }
+        for (key, value) in own.all {
+            entries.set(key, value);
+        }
+        Ok(Value::Map(entries.all))
+    }
 }
 
-/// A mapping from alternating keys and values: the last of equal keys is used, and `<<` adds missing
-/// entries of other mappings. Keys that are given `twice` are added there, with the place of the first.
-fn map(values: Vec<Yaml>, twice: &mut Vec<(Yaml, Span)>) -> Result<Value, String> {
-    let mut entries = Entries::default();
-    let mut merged = Vec::new();
-    let mut values = values.into_iter();
-    while let (Some(key), Some(value)) = (values.next(), values.next()) {
-        if key.value == Value::Text("<<".into()) {
-            match value.value {
-                Value::Map(others) => merged.extend(others),
-                Value::List(lists) => {
-                    merged.extend(lists.into_iter().flat_map(|list| list.entries().to_vec()));
-                }
-                _ => return Err("`<<` needs a mapping".into()),
-            }
-        } else {
-            if let Some(first) = entries.place(&key) {
-                twice.push((key.clone(), first));
-            }
-            entries.set(key, value);
-        }
-    }
-    // Merged entries come first, as in PyYAML.
-    let own = std::mem::take(&mut entries);
-    for (key, value) in merged {
-        if !entries.has(&key) {
-            entries.set(key, value);
-        }
-    }
-    for (key, value) in own.all {
-        entries.set(key, value);
-    }
-    Ok(Value::Map(entries.all))
+/// Returns whether an entry with a scalar is the only content of its line.
+fn is_line(text: &str, key: &Yaml, value: &Yaml) -> bool {
+    let (from, to) = (key.span.end as usize, value.span.start as usize);
+    let is_scalar = !matches!(value.value, Value::List(_) | Value::Map(_));
+    let parts = || {
+        let before = text[..key.span.start as usize].rsplit('\n').next()?;
+        let after = text[value.span.end as usize..].split('\n').next()?;
+        Some((before, text.get(from..to)?, after))
+    };
+    is_scalar
+        && key.span.line == value.span.line
+        && parts().is_some_and(|(before, between, after)| {
+            let rest = after.trim_start();
+            before.trim().is_empty()
+                && between.trim() == ":"
+                && (rest.is_empty() || rest.starts_with('#'))
+        })
 }
 
 /// The entries of a mapping, and the place of each key: an entry is found in the same time in a long mapping.
@@ -313,20 +391,19 @@ impl Entries {
         self.places.contains_key(&Self::name(key))
     }
 
-    /// The place in the text of a key that it has.
-    fn place(&self, key: &Yaml) -> Option<Span> {
-        let (first, _) = self.all.get(*self.places.get(&Self::name(key))?)?;
-        Some(first.span)
+    /// The entry of an equal key.
+    fn get(&self, key: &Yaml) -> Option<&(Yaml, Yaml)> {
+        self.all.get(*self.places.get(&Self::name(key))?)
     }
 
-    /// Sets the value of a key, which is added if it is new.
+    /// Sets the entry of a key, which is added if it is new.
     fn set(&mut self, key: Yaml, value: Yaml) {
         let place = *self
             .places
             .entry(Self::name(&key))
             .or_insert(self.all.len());
         match self.all.get_mut(place) {
-            Some((_, own)) => *own = value,
+            Some(own) => *own = (key, value),
             None => self.all.push((key, value)),
         }
     }
@@ -439,8 +516,21 @@ mod tests {
             let ten = vec![format!("*a{last}"); 10].join(",");
             bomb += &format!("a{level}: &a{level} [{ten}]\n");
         }
-        assert!(Yaml::read(&bomb).is_err_and(|why| why.contains("100000")));
+        assert!(Yaml::read(&bomb).is_err_and(|(why, _)| why.contains("100000")));
         assert!(Yaml::read("a: [1").is_err());
+    }
+
+    #[test]
+    fn a_quoted_text_ends_with_its_quote() {
+        for (text, expected) in [
+            ("'it''s' # 'x'", Some("'it''s'")),
+            ("\"a\\\"b\" # \"", Some("\"a\\\"b\"")),
+            ("''", Some("''")),
+            ("'open", None),
+            ("plain", None),
+        ] {
+            assert_eq!(quoted(text), expected, "{text}");
+        }
     }
 
     #[test]

@@ -14,11 +14,11 @@ fn network(name: &str, file: &str, text: &str) -> (Done, PathBuf) {
     (odkit(&["network", &paths[0], "-o", &paths[1]], ""), out)
 }
 
-/// The finding is there, and its place is this line of the project.
+/// The finding is there, and its place is this line of the file.
 fn is_told_at(err: &str, said: &str, line: u32) {
     let found = err.find(said).unwrap_or_else(|| panic!("{said}\n{err}"));
     let place = err[found..].lines().nth(1).unwrap_or_default();
-    assert!(place.contains(&format!("bus.yml:{line}:")), "{err}");
+    assert!(place.contains(&format!(":{line}:")), "{said}\n{err}");
 }
 
 #[test]
@@ -272,8 +272,7 @@ fn settings_of_a_master_and_of_several_nodes_are_checked() {
     }
     assert_eq!(run.err.matches("[E1212]").count(), 1, "{}", run.err);
     let (run, _) = network("master-id", "bus.yml", "master:\n  node_id: 128\n");
-    let said = "line 2: master: node_id is not valid: write 1 to 127";
-    assert!(run.err.contains(said), "{}", run.err);
+    is_told_at(&run.err, "E1214]: master: node_id `128` is not valid", 2);
 }
 
 /// A SYNC producer with the period 0 sends no SYNC (CiA 301, object 1006h).
@@ -331,64 +330,101 @@ fn a_synchronous_pdo_needs_a_period_of_sync() {
 }
 
 #[test]
-fn a_text_that_is_not_a_project_is_refused() {
-    for (name, text, said) in [
-        ("none", "a: 1\n", "the section `master` is missing"),
-        ("yaml", "a: [1\n", "none.yml"),
+fn what_ends_the_reading_of_a_project_is_a_finding_at_its_line() {
+    for (text, said, line) in [
+        ("a: 1\n", "E1216]: the section `master` is missing", 1),
+        ("a: [1\nb: 2\n", "E1218]: ", 2),
+        ("a:\n  <<: 1\n", "E1218]: `<<` needs a mapping", 3),
         (
-            "dcf",
             "master: {}\nx: {node_id: 5}\n",
-            "line 2: x: the key `dcf` is missing",
+            "E1216]: x: the key `dcf` is missing",
+            2,
         ),
         (
-            "file",
-            "master: {}\nx: {dcf: none.eds, node_id: 5}\n",
-            "none.eds",
+            "master: {}\nx:\n  dcf: none.eds\n  node_id: 5\n",
+            "E1217]: x: none.eds: ",
+            3,
         ),
     ] {
-        let (run, _) = network(name, "none.yml", text);
-        assert_eq!(run.code, 1, "{}", run.err);
-        assert!(run.err.contains(said), "{said}\n{}", run.err);
+        let (run, out) = network("none", "none.yml", text);
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
+        is_told_at(&run.err, said, line);
+        assert!(!out.exists(), "no file of a network that is not complete");
     }
     let project = |keys: &str| ["master: {}\n".into(), node("x", 5, keys)].concat();
-    for (keys, said) in [
+    for (keys, said, line) in [
         (
             "  sdo: [{index: 0x5FFF}]\n",
-            "line 5: x: object 5FFFh:00 does not exist",
+            "E1214]: x: object 5FFFh:00 does not exist",
+            5,
+        ),
+        (
+            "  sdo:\n    - {value: 1}\n",
+            "E1216]: x: the key `index` is missing",
+            6,
         ),
         (
             "  sdo: [{index: 0x1017, value: 70000}]\n",
-            "line 5: x: 1017h:00: 70000 is not a valid UNSIGNED16",
+            "E1214]: x: 1017h:00: 70000 is not a valid UNSIGNED16",
+            5,
         ),
         (
             "  rpdo: {1: {}}\n",
-            "line 5: x: object 1400h does not exist",
+            "E1214]: x: object 1400h does not exist",
+            5,
+        ),
+        (
+            "  rpdo: {0: {}}\n",
+            "E1214]: x: rpdo has `0`, which is not the number of a PDO",
+            5,
         ),
         (
             "  heartbeat_producer: fast\n",
-            "line 5: x: heartbeat_producer is not valid",
+            "E1214]: x: heartbeat_producer `fast` is not a number",
+            5,
         ),
         (
             "  heartbeat_producer: 70000\n",
-            "line 5: x: 1017h:00: 70000 is not a valid UNSIGNED16",
+            "E1214]: x: 1017h:00: 70000 is not a valid UNSIGNED16",
+            5,
+        ),
+        (
+            "  error_behavior: {1: -1}\n",
+            "E1214]: x: error_behavior `-1` is not valid",
+            5,
         ),
         (
             "  tpdo:\n    1:\n      mapping:\n        - {index: 0x6004}\n        - {index: 0x6999}\n",
-            "line 9: x: object 6999h:00 does not exist",
+            "E1214]: x: object 6999h:00 does not exist",
+            9,
         ),
         (
-            "  tpdo:\n    1:\n      transmission: 300\n",
-            "line 6: x: 1800h:02: 300 is not a valid UNSIGNED8",
+            "  tpdo:\n    1:\n      cob_id: auto\n      transmission: 300\n",
+            "E1214]: x: 1800h:02: 300 is not a valid UNSIGNED8",
+            8,
         ),
         (
             "  tpdo:\n    1:\n      transmission: slow\n",
-            "line 7: x: transmission is not valid",
+            "E1214]: x: transmission `slow` is not a number",
+            7,
         ),
     ] {
         let (run, _) = network("keys", "keys.yml", &project(keys));
         assert_eq!(run.code, 1, "{}", run.err);
-        assert!(run.err.contains(said), "{said}\n{}", run.err);
+        is_told_at(&run.err, said, line);
     }
+    // Each node has its own finding, and nodes are not compared with nodes that are missing.
+    let nodes = [node("a", 200, ""), node("b", 6, "  serial_number: x\n")];
+    let text = format!("master: {{sync_period: fast}}\n{}", nodes.concat());
+    let (run, _) = network("all", "bus.yml", &text);
+    for (said, line) in [
+        ("master: sync_period `fast` is not a number", 1),
+        ("a: node_id `200` is not valid", 4),
+        ("b: serial_number `x` is not a number", 8),
+    ] {
+        is_told_at(&run.err, said, line);
+    }
+    assert_eq!(run.err.matches("error[").count(), 3, "{}", run.err);
 }
 
 #[test]
@@ -494,36 +530,47 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
         assert!(place.contains(&format!("nodelist.cpj:{line}:")), "{place}");
     }
     assert_eq!(run.err.matches("[W1207]").count(), 5, "{}", run.err);
-    for (text, message) in [
+    for (text, message, line) in [
         (
             "[Topology]\nNode3Present=1\n",
-            "line 2: Node3DCFName is missing",
+            "E1216]: Node3DCFName is missing",
+            2,
         ),
         (
             "[Topology]\nNode3Present=1\nNode3DCFName=\n",
-            "line 3: Node3DCFName is empty",
+            "E1216]: Node3DCFName is missing",
+            3,
         ),
         (
             "[Topology]\nNode3Present=1\nNode3DCFNam=n4.dcf\n",
             "`Node3DCFNam` is not a key of a node list",
+            3,
         ),
         (
             "\n[Tropology]\nNodes=0\n",
             "[Tropology] is not a section of a node list",
+            2,
         ),
         (
             "[Topology]\nNode3DCFName=none.dcf\n",
-            "line 2: node 3: none.dcf: ",
+            "E1217]: node 3: none.dcf: ",
+            2,
         ),
         (
             "[Topology]\nNodes=0\n[Topologyy]\nNodes=0\n",
             "[Topologyy] is not a section of a node list",
+            3,
         ),
-        ("[FileInfo]\n", "the section [Topology] is missing"),
+        (
+            "[FileInfo]\n",
+            "E1216]: the section [Topology] is missing",
+            1,
+        ),
     ] {
         fs::write(&list, text).expect("a file");
         let run = odkit(&["network", &paths[0]], "");
-        assert!(run.err.contains(message), "{}", run.err);
+        assert_eq!(run.code, 1, "{}", run.err);
+        is_told_at(&run.err, message, line);
     }
 }
 
@@ -577,10 +624,10 @@ fn fixes_of_a_node_list_touch_what_is_wrong_only() {
     assert_eq!(safe, text);
     let right = text.replace("DCFNam=", "DCFName=");
     assert_eq!(all, right.replace("Nodes=1", "Nodes=0x02"));
-    // A file that does not exist, or a key that exists, keeps the name as it is.
+    // A file that does not exist is reported under the right key.
     let text = text.replace("n5.dcf", "none.dcf");
     let (_, all) = fixed("none", "nodelist.cpj", &text);
-    assert_eq!(all, text);
+    assert_eq!(all, text.replace("DCFNam=", "DCFName="));
 }
 
 #[test]
@@ -600,6 +647,58 @@ fn fixes_of_a_project_touch_what_is_wrong_only() {
         let text = format!("master: {{node_id: 1, baudrate: {given}}}\nleft: {{dcf: n4.dcf}}\n");
         let (_, all) = fixed("rate", "bus.yml", &text);
         assert_eq!(all, text.replace(given, right));
+    }
+    // An index without 0x, a number in quotes or with a unit; equal keys, of which the last is used.
+    let node = |keys: &str| format!("master: {{node_id: 1}}\nleft:\n  dcf: n4.dcf\n{keys}");
+    for (given, safe, all) in [
+        (
+            "  sdo: [{index: 6003, value: 1}]\n",
+            None,
+            "  sdo: [{index: 0x6003, value: 1}]\n",
+        ),
+        (
+            "  tpdo: {1: {mapping: [{index: 6004}]}}\n",
+            None,
+            "  tpdo: {1: {mapping: [{index: 0x6004}]}}\n",
+        ),
+        (
+            "  heartbeat_producer: \"0x64\" # \"ms\"\n",
+            None,
+            "  heartbeat_producer: 100 # \"ms\"\n",
+        ),
+        (
+            "  heartbeat_producer: 2s\n",
+            None,
+            "  heartbeat_producer: 2000\n",
+        ),
+        (
+            "  tpdo: {1: {inhibit_time: 2 ms}}\n",
+            None,
+            "  tpdo: {1: {inhibit_time: 20}}\n",
+        ),
+        (
+            "  boot: no # 1\n  serial_number: 1\n  boot: no\n",
+            Some("  serial_number: 1\n  boot: no\n"),
+            "  serial_number: 1\n  boot: no\n",
+        ),
+        (
+            "  serial_number: 1\n  serial_number: 2\n  serial_number: 2\n",
+            Some("  serial_number: 1\n  serial_number: 2\n"),
+            "  serial_number: 2\n",
+        ),
+    ] {
+        let text = node(given);
+        let (own, fixed) = fixed("meant", "bus.yml", &text);
+        assert_eq!(own, node(safe.unwrap_or(given)), "{given}");
+        assert_eq!(fixed, node(all), "{given}");
+    }
+    for given in [
+        "  heartbeat_producer: 200 us\n",
+        "  serial_number: &one 1\n  serial_number: *one\n",
+        "  boot:\n    no\n  boot: no\n",
+        "  sdo: [{index: 0x6003, index: 0x6003, value: 1}]\n",
+    ] {
+        assert_eq!(fixed("not-meant", "bus.yml", &node(given)).1, node(given));
     }
     for given in ["schnell", "300", "500 x", "[1]"] {
         let text = format!("master: {{node_id: 1, baudrate: {given}}}\nleft: {{dcf: n4.dcf}}\n");

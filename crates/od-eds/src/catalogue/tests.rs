@@ -232,8 +232,13 @@ fn faults_of_networks() -> Vec<Finding> {
         let text = format!("[DeviceComissioning]\nNodeID=2\nBaudrate={rate}\n");
         Ok(crate::load::parse(&text).description)
     };
-    for list in [list, "[Tropology]\nNode5DCFName=250\n"] {
-        let lists = crate::network::node_lists(list, &dcf).unwrap().into_iter();
+    for list in [
+        list,
+        "[Tropology]\nNode5DCFName=250\n",
+        "[Topology]\nNode5Present=1\n",
+        "",
+    ] {
+        let lists = crate::network::node_lists(list, &dcf).into_iter();
         found.extend(lists.flat_map(|list| list.findings));
     }
     let span = crate::span::Span::default();
@@ -245,7 +250,42 @@ fn faults_of_networks() -> Vec<Finding> {
     }
     found.extend(crate::network::text_of_flag("a", "boot", "ja", span));
     found.push(crate::network::no_sync("sync_window", span));
-    found.push(crate::network::key_twice("sdo", span, span));
+    for (is_line, is_same) in [(false, false), (true, false), (true, true)] {
+        let twice = crate::network::key_twice("sdo", span, span, is_line, is_same);
+        found.push(twice);
+    }
+    for (key, given, is_number, most) in [
+        ("node_id", "300", true, Some(127)),
+        ("sync_period", "5 ms", false, Some(u32::MAX)),
+        ("transmission", "-1", true, Some(255)),
+    ] {
+        let wrong = crate::network::not_a_number("a", key, given, is_number, most, span);
+        found.push(wrong);
+    }
+    found.push(crate::network::no_pdo("a", "tpdo", "0", span));
+    found.push(crate::network::missing_key("a", "dcf", "a.eds", span));
+    found.push(crate::network::unusable_file(
+        "a",
+        "a.eds",
+        "no object is defined",
+        span,
+    ));
+    found.push(crate::network::unreadable(
+        "an alias without its anchor",
+        span,
+    ));
+    let unfit = crate::network::Unfit {
+        address: od_model::Address::new(0x1771, 0),
+        why: "e: object 1771h:00 does not exist".into(),
+    };
+    for index in [None, Some(("1005", span))] {
+        found.push(crate::network::unfit(
+            &node("e", 4, waiting),
+            &unfit,
+            span,
+            index,
+        ));
+    }
     let mut reserved = node("e", 4, waiting);
     let address = od_model::Address::new(0x1800, 2);
     let write = crate::network::Write::new(address, DataType::Unsigned8, 245);

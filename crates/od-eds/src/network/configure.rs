@@ -4,9 +4,10 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::node::{Node, Setting};
+use super::node::Node;
 use super::pdo;
 use super::pdo::PdoConfiguration;
+use super::write::Unfit;
 use od_model::Address;
 
 /// Settings of a project for all nodes.
@@ -63,22 +64,6 @@ pub struct Configuration {
     pub sdo: Vec<(Address, i128)>,
 }
 
-/// A setting that the device of a node cannot have.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Unfit {
-    /// The setting.
-    pub setting: Setting,
-    /// The reason, in words, with the name of the node.
-    pub why: String,
-}
-
-impl Setting {
-    /// Returns what makes a reason an error about this setting.
-    pub(super) fn unfit(self) -> impl Fn(String) -> Unfit {
-        move |why| Unfit { setting: self, why }
-    }
-}
-
 /// Makes the writes of a node.
 ///
 /// # Errors
@@ -101,11 +86,11 @@ pub fn configure(
         .heartbeat_multiplier
         .unwrap_or(settings.heartbeat_multiplier);
     node.consumes_heartbeat = wanted.heartbeat_consumer;
-    for (index, key, number) in [
-        (0x1012, "time_cob_id", wanted.time_cob_id),
-        (0x1017, "heartbeat_producer", wanted.heartbeat_producer),
-        (0x100C, "guard_time", wanted.guard_time),
-        (0x100D, "life_time_factor", wanted.life_time_factor),
+    for (index, number) in [
+        (0x1012, wanted.time_cob_id),
+        (0x1017, wanted.heartbeat_producer),
+        (0x100C, wanted.guard_time),
+        (0x100D, wanted.life_time_factor),
     ] {
         let before = match index {
             // dcfgen writes a COB-ID that differs from the default, whatever the file contains.
@@ -113,38 +98,27 @@ pub fn configure(
             index => node.number(index, 0),
         };
         if let Some(number) = number.filter(|number| node.has(index) && *number != before) {
-            let write = node.write(index, 0, number.into());
-            node.writes.push(write.map_err(Setting::Key(key).unfit())?);
+            node.writes.push(node.write(index, 0, number.into())?);
         }
     }
     for &(sub, number) in &wanted.error_behavior {
         if sub > 0 && node.has_entry(0x1029, sub) && node.number(0x1029, sub) != number {
-            let write = node.write(0x1029, sub, number.into());
-            node.writes
-                .push(write.map_err(Setting::Key("error_behavior").unfit())?);
+            node.writes.push(node.write(0x1029, sub, number.into())?);
         }
     }
-    for (first, key, wanted) in [
-        (0x1400, "rpdo", &wanted.rpdo),
-        (0x1800, "tpdo", &wanted.tpdo),
-    ] {
+    for (first, wanted) in [(0x1400, &wanted.rpdo), (0x1800, &wanted.tpdo)] {
         for &(number, ref pdo) in wanted {
             let index = first + (number - 1).min(0x1FF);
-            let unfit = Setting::Pdo(key, number).unfit();
             if !node.has(index) {
-                let why = format!("{}: object {index:04X}h does not exist", node.name);
-                return Err(unfit(why));
+                let why = format!("object {index:04X}h does not exist");
+                return Err(Unfit::new(node, index, 0, why));
             }
-            let mapped = |at| Setting::Mapped(key, number, at);
-            pdo::configure(node, index, pdo, &mut settings.next).map_err(|wrong| match wrong {
-                (None, why) => unfit(why),
-                (Some(at), why) => mapped(at).unfit()(why),
-            })?;
+            pdo::configure(node, index, pdo, &mut settings.next)?;
         }
     }
-    for (at, &(address, number)) in wanted.sdo.iter().enumerate() {
-        let write = node.write(address.index, address.sub, number);
-        node.writes.push(write.map_err(Setting::Sdo(at).unfit())?);
+    for &(address, number) in &wanted.sdo {
+        node.writes
+            .push(node.write(address.index, address.sub, number)?);
     }
     node.software = (
         wanted.software_file.clone(),

@@ -11,11 +11,13 @@ use super::saved::saved;
 use crate::description::Description;
 use crate::finding::Finding;
 use crate::log::Log;
-use crate::rules::network::{
+use crate::rules::network::list::{
     w1207_bit_rate_differs, w1207_duplicate_section, w1207_key_misspelled, w1207_key_twice,
     w1207_node_count, w1207_node_id_differs, w1207_node_id_not_valid, w1207_present_not_valid,
     w1207_same_name, w1207_section_misspelled,
 };
+use crate::rules::network::project::unfit;
+use crate::rules::network::reading::{e1216_no_file, missing_section, unreadable, unusable_file};
 use crate::scan::forms::{near, nearest};
 use crate::scan::lines::{Fault, scan};
 use crate::scan::number::number;
@@ -30,8 +32,10 @@ pub struct NodeList {
     pub bit_rate: Option<u32>,
     /// The nodes that are present, by ascending node ID, with the writes of their DCFs.
     pub nodes: Vec<Node>,
-    /// Contradictions within the list, and with the DCFs.
+    /// Contradictions within the list and with the DCFs, and nodes that cannot be read.
     pub findings: Vec<Finding>,
+    /// Whether all nodes that are present could be read.
+    pub is_complete: bool,
 }
 
 /// The keys of one node, with their values.
@@ -46,24 +50,16 @@ struct Listed<'a> {
 type Pair<'a> = (&'a Text<'a>, &'a Text<'a>);
 
 /// Reads the networks of a node list; `load` reads the description at a path.
-///
-/// # Errors
-/// The text is not a node list, or a description cannot be read; in words, with the line.
-pub fn node_lists(
-    text: &str,
-    load: &dyn Fn(&str) -> Result<Description, String>,
-) -> Result<Vec<NodeList>, String> {
+pub fn node_lists(text: &str, load: &dyn Fn(&str) -> Result<Description, String>) -> Vec<NodeList> {
     let mut many = None;
     let sections = scan(text, &mut |fault| {
         if let Fault::Many { at, most, of } = fault {
-            many = Some(format!(
-                "line {}: a node list has at most {most} {of}",
-                at.line
-            ));
+            let why = format!("a node list has at most {most} {of}");
+            many = Some(NodeList::of_error(unreadable(&why, *at)));
         }
     });
     if let Some(many) = many {
-        return Err(many);
+        return Vec::from([many]);
     }
     let is_network = |section: &&TextSection<'_>| {
         let start = section.name.get(.."Topology".len());
@@ -72,9 +68,9 @@ pub fn node_lists(
     };
     let networks = sections.iter().filter(is_network);
     let mut known: Vec<String> = Vec::new();
-    let networks: Vec<_> = networks
+    let mut networks: Vec<_> = networks
         .map(|section| {
-            let mut list = topology(section, load)?;
+            let mut list = topology(section, load);
             let name = section.name.to_ascii_lowercase();
             if known.contains(&name) {
                 let finding = w1207_duplicate_section(section.header, &section.name);
@@ -85,13 +81,25 @@ pub fn node_lists(
                 let finding = w1207_section_misspelled(&section.name, &right);
                 list.findings.insert(0, finding);
             }
-            Ok(list)
+            list
         })
-        .collect::<Result<_, String>>()?;
+        .collect();
     if networks.is_empty() {
-        Err("the section [Topology] is missing".into())
-    } else {
-        Ok(networks)
+        networks.push(NodeList::of_error(missing_section("[Topology]")));
+    }
+    networks
+}
+
+impl NodeList {
+    /// A list without nodes, because of this error.
+    fn of_error(error: Finding) -> Self {
+        Self {
+            name: String::new(),
+            bit_rate: None,
+            nodes: Vec::new(),
+            findings: Vec::from([error]),
+            is_complete: false,
+        }
     }
 }
 
@@ -145,7 +153,7 @@ fn listed<'a>(section: &'a TextSection<'_>, log: &mut Log) -> BTreeMap<u8, Liste
 fn topology(
     section: &TextSection<'_>,
     load: &dyn Fn(&str) -> Result<Description, String>,
-) -> Result<NodeList, String> {
+) -> NodeList {
     let mut log = Log::default();
     let nodes = listed(section, &mut log);
     let all: Vec<u8> = nodes.keys().copied().collect();
@@ -157,6 +165,7 @@ fn topology(
         bit_rate: None,
         nodes: Vec::new(),
         findings: Vec::new(),
+        is_complete: true,
     };
     let mut names: BTreeMap<&str, u8> = BTreeMap::new();
     for (id, listed) in nodes {
@@ -171,19 +180,26 @@ fn topology(
             if let Some((present, Some(1..))) = present {
                 let right = format!("Node{id}DCFName");
                 let mut keys = section.pairs.iter().map(|(key, _)| key);
-                if let Some(key) = keys.clone().find(|key| key.eq_ignore_ascii_case(&right)) {
-                    return Err(format!("line {}: {right} is empty", key.span.line));
-                }
+                let empty = keys.clone().find(|key| key.eq_ignore_ascii_case(&right));
+                // A misspelled key is reported already.
                 if !keys.any(|key| meant(key).as_ref() == Some(&right)) {
-                    return Err(format!("line {}: {right} is missing", present.span.line));
+                    let place = empty.map_or(present.span, |key| key.span);
+                    log.push(e1216_no_file(id, place));
                 }
+                list.is_complete = false;
             }
             continue;
         };
         let path = file.replace('\\', "/");
-        let line = file.span.line;
-        let description =
-            load(&path).map_err(|why| format!("line {line}: node {id}: {path}: {why}"))?;
+        let node = format!("node {id}");
+        let description = match load(&path) {
+            Ok(description) => description,
+            Err(why) => {
+                log.push(unusable_file(&node, &path, &why, file.span));
+                list.is_complete = false;
+                continue;
+            }
+        };
         if let Some(own) = description.commissioned_node_id().filter(|own| *own != id) {
             let keys = if all.contains(&own) {
                 Vec::new()
@@ -208,7 +224,14 @@ fn topology(
         let name =
             value_of(listed.name).map_or_else(|| format!("node{id}"), |name| name.to_string());
         let mut node = Node::new(name, id, description);
-        node.writes = saved(&node).map_err(|why| format!("line {line}: node {id}: {why}"))?;
+        match saved(&node) {
+            Ok(writes) => node.writes = writes,
+            Err(wrong) => {
+                log.push(unfit(&node, &wrong, file.span, None));
+                list.is_complete = false;
+                continue;
+            }
+        }
         if !node.writes.is_empty() {
             node.configuration_file = format!("{}.bin", node.name);
         }
@@ -220,12 +243,13 @@ fn topology(
     let counts = [list.nodes.len(), all.len()].map(|count| Some(count as i128));
     list.findings = log.finish();
     if let Some(given) = count
+        && (list.is_complete || number(given).is_none())
         && !counts.contains(&number(given))
     {
         let finding = w1207_node_count(given, list.nodes.len(), list.findings.is_empty());
         list.findings.push(finding);
     }
-    Ok(list)
+    list
 }
 
 fn value_of<'a>(pair: Option<Pair<'a>>) -> Option<&'a Text<'a>> {

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 
 use super::concise::Write;
 use super::node::Node;
-use od_model::{Address, Refused};
+use super::write::Unfit;
+use od_model::Address;
 
 /// Settings of a project for its master.
 #[derive(Clone, PartialEq, Debug)]
@@ -56,33 +57,31 @@ impl Default for Master {
     }
 }
 
-/// Inserts the writes of 1016h before those of each node: to watch the master, or not to.
+/// Inserts the writes of 1016h before those of a node: to watch the master, or not to.
 ///
 /// # Errors
-/// A value is invalid; in words.
-pub fn consume_heartbeats(master: &Master, nodes: &mut [Node]) -> Result<(), Refused> {
+/// A value is invalid.
+pub fn consume_heartbeat(master: &Master, node: &mut Node) -> Result<(), Unfit> {
     let time = (f64::from(master.heartbeat_producer) * master.heartbeat_multiplier) as u32;
-    for node in nodes {
-        let entries = node.members(0x1016).into_iter();
-        let entries: Vec<_> = entries.map(|sub| (sub, node.number(0x1016, sub))).collect();
-        let id = |value: u32| value >> 16 & 0xFF;
-        let is_master = |value: u32| id(value) == u32::from(master.node_id);
-        if node.consumes_heartbeat && time > 0 {
-            let own = entries.iter().find(|(_, value)| is_master(*value));
-            let is_free = |value: u32| value & 0xFFFF == 0 || !(1..=127).contains(&id(value));
-            let free = entries.iter().find(|(_, value)| is_free(*value));
-            if let Some((sub, _)) = own.or(free) {
-                let value = u32::from(master.node_id) << 16 | time & 0xFFFF;
-                node.writes
-                    .insert(0, node.write(0x1016, *sub, value.into())?);
-            }
-            continue;
+    let entries = node.members(0x1016).into_iter();
+    let entries: Vec<_> = entries.map(|sub| (sub, node.number(0x1016, sub))).collect();
+    let id = |value: u32| value >> 16 & 0xFF;
+    let is_master = |value: u32| id(value) == u32::from(master.node_id);
+    if node.consumes_heartbeat && time > 0 {
+        let own = entries.iter().find(|(_, value)| is_master(*value));
+        let is_free = |value: u32| value & 0xFFFF == 0 || !(1..=127).contains(&id(value));
+        let free = entries.iter().find(|(_, value)| is_free(*value));
+        if let Some((sub, _)) = own.or(free) {
+            let value = u32::from(master.node_id) << 16 | time & 0xFFFF;
+            let write = node.write(0x1016, *sub, value.into())?;
+            node.writes.insert(0, write);
         }
-        for (sub, value) in entries {
-            if value & 0xFFFF != 0 && is_master(value) {
-                node.writes
-                    .insert(0, node.write(0x1016, sub, (id(value) << 16).into())?);
-            }
+        return Ok(());
+    }
+    for (sub, value) in entries {
+        if value & 0xFFFF != 0 && is_master(value) {
+            let write = node.write(0x1016, sub, (id(value) << 16).into())?;
+            node.writes.insert(0, write);
         }
     }
     Ok(())

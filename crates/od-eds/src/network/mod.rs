@@ -17,19 +17,21 @@ mod partners;
 mod pdo;
 mod report;
 mod saved;
-mod write;
+pub(crate) mod write;
 
-pub use crate::rules::network::{
-    key_twice, misspelled_key, no_sync, not_mappable, read_only, text_of_flag, unfit_values,
-    unusual_bit_rate,
+pub use crate::rules::network::project::{
+    key_twice, misspelled_key, no_pdo, no_sync, not_a_number, not_mappable, read_only,
+    text_of_flag, unfit, unfit_values, unusual_bit_rate,
 };
+pub use crate::rules::network::reading::{missing_key, missing_section, unreadable, unusable_file};
 pub use concise::{Write, bytes};
-pub use configure::{Configuration, ProjectSettings, Unfit, configure};
+pub use configure::{Configuration, ProjectSettings, configure};
 pub use dcf::dcf;
 pub use list::{NodeList, node_lists};
 pub use load::{BIT_RATES, Frame, Trigger, frame_bits, frames, load};
-pub use master::{Master, consume_heartbeats, writes};
+pub use master::{Master, consume_heartbeat, writes};
 pub use node::{Node, Setting};
 pub use pdo::PdoConfiguration;
 pub use report::check;
 pub use saved::saved;
+pub use write::Unfit;

@@ -17,10 +17,6 @@ pub enum Setting {
     Key(&'static str),
     /// A PDO below the key, by its number.
     Pdo(&'static str, u16),
-    /// An object in the mapping of a PDO, counted from 0.
-    Mapped(&'static str, u16, usize),
-    /// One of the writes below `sdo`, counted from 0.
-    Sdo(usize),
 }
 
 /// A node with the writes that configure it.

@@ -8,12 +8,10 @@ use od_model::Address;
 
 use super::concise::Write;
 use super::node::Node;
+use super::write::Unfit;
 
 /// A PDO that is not valid (bit 31 of its COB-ID).
 const INVALID: u32 = 1 << 31;
-
-/// A fault of a PDO: the position of the wrong object in its mapping, counted from 0, or `None`; and the reason, in words.
-type Wrong = (Option<usize>, String);
 
 /// Appends the writes of a PDO; `next` is the next CAN-ID for PDOs without a pre-defined one.
 ///
@@ -24,7 +22,7 @@ pub(super) fn configure(
     index: u16,
     wanted: &PdoConfiguration,
     next: &mut u32,
-) -> Result<(), Wrong> {
+) -> Result<(), Unfit> {
     let is_tpdo = index >= 0x1800;
     let count = node.number(index, 0);
     let given = |sub: u8| {
@@ -43,13 +41,13 @@ pub(super) fn configure(
     let cob_id = match wanted.cob_id {
         None => before,
         Some(Some(cob_id)) => cob_id,
-        Some(None) => automatic(node, index, next).map_err(of_pdo)?,
+        Some(None) => automatic(node, index, next)?,
     };
     let mut writes = Vec::new();
     let mut partners = None;
     let mut write = |index: u16, sub: u8, number: u32| {
-        writes.push(node.write(index, sub, number.into()).map_err(of_pdo)?);
-        Ok::<(), Wrong>(())
+        writes.push(node.write(index, sub, number.into())?);
+        Ok::<(), Unfit>(())
     };
     if before != cob_id | INVALID {
         write(index, 1, cob_id | INVALID)?;
@@ -93,7 +91,7 @@ pub(super) fn configure(
             map(node, index + 0x200, mapping, &mut writes)?;
         }
         if wanted.enabled {
-            writes.push(node.write(index, 1, cob_id.into()).map_err(of_pdo)?);
+            writes.push(node.write(index, 1, cob_id.into())?);
         }
     }
     node.writes.extend(writes);
@@ -103,48 +101,46 @@ pub(super) fn configure(
 }
 
 /// The CAN-ID of the pre-defined connection set, or the next free one.
-fn automatic(node: &Node, index: u16, next: &mut u32) -> Result<u32, String> {
+fn automatic(node: &Node, index: u16, next: &mut u32) -> Result<u32, Unfit> {
     let pdo = u32::from(index & 0x1FF);
     let first = if index >= 0x1800 { 0x180 } else { 0x200 };
     if pdo < 4 {
         return Ok(first + 0x100 * pdo + u32::from(node.id));
     }
     if *next >= 0x6E0 {
-        return Err(format!("{}: no CAN-ID is left for {index:04X}h", node.name));
+        let why = format!("no CAN-ID is left for {index:04X}h");
+        return Err(Unfit::new(node, index, 1, why));
     }
     *next += 1;
     Ok(*next - 1)
 }
 
-fn map(node: &Node, index: u16, mapping: &[Address], writes: &mut Vec<Write>) -> Result<(), Wrong> {
+fn map(node: &Node, index: u16, mapping: &[Address], writes: &mut Vec<Write>) -> Result<(), Unfit> {
     if node.number(index, 0) > 0 || !mapping.is_empty() {
-        writes.push(node.write(index, 0, 0).map_err(of_pdo)?);
+        writes.push(node.write(index, 0, 0)?);
     }
     for (at, address) in mapping.iter().enumerate() {
-        writes.push(entry(node, index, at, *address).map_err(|why| (Some(at), why))?);
+        writes.push(entry(node, index, at, *address)?);
     }
     if !mapping.is_empty() {
-        let count = node.write(index, 0, mapping.len() as i128);
-        writes.push(count.map_err(of_pdo)?);
+        writes.push(node.write(index, 0, mapping.len() as i128)?);
     }
     Ok(())
 }
 
 /// The write of a mapping entry, counted from 0.
-fn entry(node: &Node, index: u16, at: usize, address: Address) -> Result<Write, String> {
-    let name = &node.name;
+fn entry(node: &Node, index: u16, at: usize, address: Address) -> Result<Write, Unfit> {
+    let sub = u8::try_from(at + 1).unwrap_or(u8::MAX);
+    let unfit = |why: String| Unfit::new(node, index, sub, why);
+    if at >= 64 {
+        return Err(unfit("a PDO has at most 64 objects".into()));
+    }
     let entry = node.description.entry(address);
-    let entry = entry.ok_or_else(|| format!("{name}: object {address} does not exist"))?;
+    let entry = entry.ok_or_else(|| unfit(format!("object {address} does not exist")))?;
     let bits = entry.data_type.and_then(|data_type| data_type.bits());
-    let bits = bits.ok_or_else(|| format!("{name}: {address} cannot be mapped"))?;
+    let bits = bits.ok_or_else(|| unfit(format!("{address} cannot be mapped")))?;
     let number = u32::from(address.index) << 16 | u32::from(address.sub) << 8 | u32::from(bits);
-    let sub = u8::try_from(at + 1).map_err(|_| format!("{name}: a PDO has at most 64 objects"))?;
     node.write(index, sub, number.into())
-}
-
-/// A fault of a PDO that is not one of its mapped objects.
-const fn of_pdo(why: String) -> Wrong {
-    (None, why)
 }
 
 /// Settings of one PDO in a project; `None` leaves the value of the device.

@@ -9,7 +9,7 @@ use super::load::{frames, load};
 use super::node::{Node, Setting};
 use crate::finding::Finding;
 use crate::identifiers::{Service, Used, mapping, used};
-use crate::rules::network::{
+use crate::rules::network::nodes::{
     e1201_same_node_id, e1202_same_can_id, e1204_consumer_time_too_short, e1210_can_id_reserved,
     w1203_no_producer, w1203_no_sync, w1205_bus_load, w1206_pdo_too_short,
 };

@@ -1,20 +1,20 @@
 //! The writes that configure a device by its DCF.
 
 use alloc::collections::BTreeSet;
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::concise::Write;
 use super::node::Node;
+use super::write::Unfit;
 use crate::subject::start_value;
-use od_model::{Address, Refused};
+use od_model::Address;
 
 /// Returns the writes of all values that the DCF of a node sets (ParameterValue), in an order that
 /// every node accepts: a PDO is not valid while its mapping changes.
 ///
 /// # Errors
-/// A value is invalid; in words.
-pub fn saved(node: &Node) -> Result<Vec<Write>, Refused> {
+/// A value is invalid.
+pub fn saved(node: &Node) -> Result<Vec<Write>, Unfit> {
     let mut writes = Vec::new();
     let mut pdos = BTreeSet::new();
     for (address, entry) in node.description.entries() {
@@ -41,7 +41,7 @@ pub fn saved(node: &Node) -> Result<Vec<Write>, Refused> {
     Ok(writes)
 }
 
-fn pdo(node: &Node, index: u16, writes: &mut Vec<Write>) -> Result<(), String> {
+fn pdo(node: &Node, index: u16, writes: &mut Vec<Write>) -> Result<(), Unfit> {
     let mapping = index + 0x200;
     let is_writable = |index, sub| {
         let entry = node.description.entry(Address::new(index, sub));

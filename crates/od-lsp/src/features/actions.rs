@@ -7,7 +7,6 @@ use od_eds::{Document, Finding};
 
 use crate::features::diagnostics;
 use crate::file::{self, File, Kind, Seen};
-use crate::host::Host;
 use crate::layout::bytes;
 use crate::types::{CodeAction, TextEdit, WorkspaceEdit};
 
@@ -15,12 +14,12 @@ use crate::types::{CodeAction, TextEdit, WorkspaceEdit};
 pub(crate) const FIX_ALL: &str = "source.fixAll.odkit";
 const QUICK_FIX: &str = "quickfix";
 
-/// The actions for the lines of a range. The edit of "fix all" is made now, or when the client requests it
-/// `later`.
+/// The actions for the lines of a range. `all` makes the edit of "fix all" now, or when the client requests
+/// it `later`.
 pub(crate) fn of(
     file: &File,
     seen: &Seen,
-    host: &dyn Host,
+    all: &dyn Fn() -> WorkspaceEdit,
     within: &Range<usize>,
     only: Option<&[String]>,
     later: bool,
@@ -51,7 +50,7 @@ pub(crate) fn of(
         fix.is_some_and(|fix| fix.applicability == Applicability::Safe)
     };
     if wants(FIX_ALL) && seen.findings.iter().any(is_safe) {
-        let now = (!later).then(|| fix_all(file, seen, host));
+        let now = (!later).then(all);
         // A fix that would break the fix of another finding is left out.
         if now.as_ref().is_none_or(|edit| !edit.changes.is_empty()) {
             actions.push(CodeAction {
@@ -67,23 +66,12 @@ pub(crate) fn of(
     actions
 }
 
-/// The edit that applies all safe fixes, as `odkit check --fix` does.
-pub(crate) fn fix_all(file: &File, seen: &Seen, host: &dyn Host) -> WorkspaceEdit {
-    let find = |document: &Document| {
-        let mut findings = document.load().findings;
-        // Errors in the settings are shown when the file is checked.
-        let _ = host.judge(&file.path, &mut findings);
-        findings
-    };
+/// The edit that applies all safe fixes; `find` returns the findings of a text.
+pub(crate) fn fix_all(file: &File, find: &dyn Fn(&Document) -> Vec<Finding>) -> WorkspaceEdit {
     let edits = match file.kind {
-        Kind::Eds | Kind::Xdd => {
+        Kind::Eds | Kind::Xdd | Kind::NodeList | Kind::Project => {
             let done = fix::fix(&file.document(), Applicability::Safe, find);
             file::edits(file, &format!("{}{}", file.mark(), done.document.text()))
-        }
-        // Their findings need other files, so that the fixes are those of one round.
-        Kind::NodeList | Kind::Project => {
-            let edits = fix::plan(file.str(), &seen.findings, Applicability::Safe);
-            file::edits(file, &fix::apply(file.str(), &edits))
         }
         Kind::Overlay | Kind::Rust => Vec::new(),
     };

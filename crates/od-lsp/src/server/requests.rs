@@ -225,13 +225,15 @@ impl Server {
     }
 
     fn actions(&mut self, id: &Value, params: Value) -> Result<String, Fault> {
-        let later = self.later;
         let params: InRange = read(params)?;
         let (open, host) = self.open(&params.text_document)?;
-        let bytes = open.file.text.bytes(params.range);
+        open.file.seen(host);
+        let file = self.file(&params.text_document)?;
+        let bytes = file.text.bytes(params.range);
         let only = params.context.only.as_deref();
-        let seen = open.file.seen(host);
-        let found = actions::of(&open.file, seen, host, &bytes, only, later);
+        let fix_all = || self.fix_all(file);
+        let seen = file.seen(&*self.host);
+        let found = actions::of(file, seen, &fix_all, &bytes, only, self.later);
         Ok(message::answer(id, &found))
     }
 
@@ -244,12 +246,32 @@ impl Server {
         if let (Some(uri), Some(action)) = (uri, action.as_object_mut())
             && !action.contains_key("edit")
         {
-            let (open, host) = self.open(&DocumentId { uri })?;
-            let edit = actions::fix_all(&open.file, open.file.seen(host), host);
+            let edit = self.fix_all(self.file(&DocumentId { uri })?);
             let edit = serde_json::to_value(edit).map_err(|error| Fault::params(&error))?;
             action.insert("edit".into(), edit);
         }
         Ok(message::answer(id, &action))
+    }
+
+    fn file(&self, id: &DocumentId) -> Result<&File, Fault> {
+        let open = self.files.get(&id.uri);
+        let open = open.ok_or_else(|| Fault::failed(format!("{} is not open", id.uri)))?;
+        Ok(&open.file)
+    }
+
+    /// The edit that applies all safe fixes, as `odkit check --fix` and `odkit network --fix` do.
+    fn fix_all(&self, file: &File) -> WorkspaceEdit {
+        let find = |path: &str| self.find(path).map(String::into_bytes);
+        let network = self.host.network(&file.path, &find);
+        actions::fix_all(file, &|document| {
+            let mut findings = match file.kind {
+                Kind::NodeList | Kind::Project => network(document.text()),
+                Kind::Eds | Kind::Xdd | Kind::Overlay | Kind::Rust => document.load().findings,
+            };
+            // Errors in the settings are shown when the file is checked.
+            let _ = self.host.judge(&file.path, &mut findings);
+            findings
+        })
     }
 
     /// All tokens, or the difference to the tokens of the client.

@@ -49,6 +49,29 @@ fn what_cannot_be_read_is_shown_at_its_line() {
     assert!(message.contains("none.dcf: it cannot be read"), "{message}");
 }
 
+/// The count of nodes is only safe to correct when the word for 1 is.
+#[test]
+fn all_safe_fixes_of_a_node_list_are_made_at_once() {
+    let text = TEXT.replace("Nodes=1", "Nodes=0");
+    let mut client = client(&text);
+    let line = json!({ "line": 0, "character": 0 });
+    let params = json!({
+        "textDocument": { "uri": LIST },
+        "range": { "start": line, "end": line },
+        "context": { "diagnostics": [], "only": ["source.fixAll"] },
+    });
+    let actions = client.request("textDocument/codeAction", params);
+    let edits = actions[0]["edit"]["changes"][LIST].as_array();
+    let mut lines: Vec<&str> = text.lines().collect();
+    for edit in edits.expect("edits") {
+        let first = edit["range"]["start"]["line"].as_u64().expect("a line") as usize;
+        let new = edit["newText"].as_str().expect("a text").trim_end();
+        let last = edit["range"]["end"]["line"].as_u64().expect("a line") as usize;
+        lines.splice(first..last, new.lines());
+    }
+    assert_eq!(lines[1..3], ["Nodes=0x01", "Node4Present=1"], "{edits:?}");
+}
+
 #[test]
 fn a_node_list_has_quick_fixes() {
     let mut client = client(TEXT);

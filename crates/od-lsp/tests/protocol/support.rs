@@ -28,18 +28,19 @@ impl Host for Files {
         Ok(())
     }
 
-    fn network(
-        &self,
-        path: &str,
-        text: &str,
-        find: &dyn Fn(&str) -> Option<Vec<u8>>,
-    ) -> Result<Vec<Finding>, String> {
+    fn network<'a>(
+        &'a self,
+        path: &'a str,
+        find: &'a dyn Fn(&str) -> Option<Vec<u8>>,
+    ) -> Box<dyn Fn(&str) -> Vec<Finding> + 'a> {
         let (folder, _) = path.rsplit_once('/').unwrap_or_default();
-        let lists = od_eds::network::node_lists(text, &|name| {
-            let bytes = find(&format!("{folder}/{name}")).ok_or("it cannot be read")?;
-            Ok(od_eds::parse(od_eds::Document::new(bytes).text()).description)
-        })?;
-        Ok(lists.into_iter().flat_map(|list| list.findings).collect())
+        Box::new(move |text| {
+            let lists = od_eds::network::node_lists(text, &|name| {
+                let bytes = find(&format!("{folder}/{name}")).ok_or("it cannot be read")?;
+                Ok(od_eds::parse(od_eds::Document::new(bytes).text()).description)
+            });
+            lists.into_iter().flat_map(|list| list.findings).collect()
+        })
     }
 }
 
