@@ -8,7 +8,7 @@ use std::sync::mpsc::{self, TryRecvError};
 use std::{fs, thread};
 
 use od_eds::Finding;
-use od_lsp::{Host, Server};
+use od_lsp::{Finder, Host, Server};
 use od_model::Refused;
 
 use crate::config::Config;
@@ -127,7 +127,7 @@ impl Host for Disk {
         &'a self,
         path: &'a str,
         find: &'a dyn Fn(&str) -> Option<Vec<u8>>,
-    ) -> Box<dyn Fn(&str) -> Vec<Finding> + 'a> {
+    ) -> Finder<'a> {
         let files = Files::default();
         let open = move |path: &Path| {
             // Without `.`, as the path of an open file.

@@ -3,6 +3,9 @@
 use od_eds::Finding;
 use od_model::Refused;
 
+/// Finds the faults of a text.
+pub type Finder<'a> = Box<dyn Fn(&str) -> Vec<Finding> + 'a>;
+
 /// The world around a server.
 pub trait Host {
     /// The bytes of a file; `None` if it cannot be read.
@@ -23,7 +26,7 @@ pub trait Host {
         &'a self,
         _path: &'a str,
         _find: &'a dyn Fn(&str) -> Option<Vec<u8>>,
-    ) -> Box<dyn Fn(&str) -> Vec<Finding> + 'a> {
+    ) -> Finder<'a> {
         Box::new(|_| Vec::new())
     }
 }

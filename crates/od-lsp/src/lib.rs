@@ -32,5 +32,5 @@ mod uri;
 mod words;
 mod xdd;
 
-pub use host::{Host, NoHost};
+pub use host::{Finder, Host, NoHost};
 pub use server::Server;

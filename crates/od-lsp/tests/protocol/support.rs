@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use od_eds::Finding;
-use od_lsp::{Host, Server};
+use od_lsp::{Finder, Host, Server};
 use od_model::Refused;
 use serde_json::{Value, json};
 
@@ -32,7 +32,7 @@ impl Host for Files {
         &'a self,
         path: &'a str,
         find: &'a dyn Fn(&str) -> Option<Vec<u8>>,
-    ) -> Box<dyn Fn(&str) -> Vec<Finding> + 'a> {
+    ) -> Finder<'a> {
         let (folder, _) = path.rsplit_once('/').unwrap_or_default();
         Box::new(move |text| {
             let lists = od_eds::network::node_lists(text, &|name| {
