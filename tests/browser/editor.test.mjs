@@ -88,7 +88,7 @@ check('hover, completion, jumps and fixes are those of the language server', asy
   await to(page, '2801h', 'AccessType');
   await page.keyboard.press('Backspace');
   await page.keyboard.type('/w');
-  const wrong = page.locator('.cm-activeLine .od-warning').first();
+  const wrong = page.locator('.cm-activeLine .od-error').first();
   await wrong.waitFor();
   await wrong.hover();
   await becomes('the rule', () => page.locator('.od-prose').textContent(), /W0424[^]*Source: CiA 306/);
