@@ -5,8 +5,8 @@ use od_model::{Address, values};
 use od_wire::nmt::Command;
 
 use super::each_tpdo::on_each;
-use super::transmit::timed_on;
-use crate::conform::dut::Dut;
+use super::transmit::{learn_sync, next, sync, timed_on, typed_on};
+use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, at_least_one, ensure, fail, lacks};
 
 /// Vendor and products of a manual.
@@ -67,6 +67,50 @@ pub(super) fn repeats(dut: &mut Dut<'_>) -> Checked {
             dut.fault(done)?;
         }
         Ok(())
+    })
+}
+
+/// With bits 6 and 7 of 2110h, and not with one of them, the node sends synchronous TPDOs only.
+pub(super) fn sync_only(dut: &mut Dut<'_>) -> Checked {
+    is_of(dut, &[GX])?;
+    learn_sync(dut)?;
+    let options = Address::new(0x2110, 0);
+    let own = dut.keep(options)?;
+    on_each(dut, |dut, pdo, _| {
+        let number = pdo.com - 0x17FF;
+        timed_on(dut, pdo, 50)?;
+        for (bits, wanted) in [(0, true), (0x40, true), (0x80, true), (0xC0, false)] {
+            let mut bytes = own.clone();
+            if let Some(first) = bytes.first_mut() {
+                *first = *first & 0x3F | bits;
+            }
+            dut.write(options, &bytes)?;
+            dut.nmt(Command::Start)?;
+            dut.drain()?;
+            let came = next(dut, pdo, 300_000)?.is_some();
+            dut.nmt(Command::EnterPreOperational)?;
+            let which = if wanted { "the" } else { "no" };
+            let done = ensure(
+                came == wanted,
+                format!(
+                    "{which} TPDO{number} by its event timer, with {bits:02X}h in bits 6 and 7 of 2110h"
+                ),
+                if came { "it came" } else { "none came" },
+            );
+            dut.fault(done)?;
+        }
+        typed_on(dut, pdo, 1)?;
+        dut.nmt(Command::Start)?;
+        dut.drain()?;
+        sync(dut)?;
+        let came = next(dut, pdo, QUIET)?.is_some();
+        dut.nmt(Command::EnterPreOperational)?;
+        dut.write(options, &own)?;
+        ensure(
+            came,
+            format!("TPDO{number} with SYNC, with C0h in bits 6 and 7 of 2110h"),
+            "none came",
+        )
     })
 }
 

@@ -842,6 +842,8 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 406 6501h: Resolution, revolutions, supported alarms and warnings, and versions are those of the EDS.").applies("cia406"),
         check("encoder-repeat-counter", maker::repeats,
             "Manual 000, object 2800h: A TPDO is repeated as often as its counter says while the position stays the same.").applies("cia406, 2800h rw, 1018h:02"),
+        check("encoder-sync-only", maker::sync_only,
+            "Manual 000, object 2110h: With bits 6 and 7 of 2110h, and not with one of them, only synchronous TPDOs are sent.").applies("cia406, 2110h rw, 1018h:02"),
         check("encoder-gear", preset::gear,
             "Manuals 001 and 003, object 2001h: The electronic gear gives the position or 6001h as its numerator and denominator say.").applies("cia406, 2001h:01 rw, 6002h rw, 6004h, 1010h:01, 1018h:02").needs("reset, store"),
         check("encoder-error-injection", diagnosis::injection,
