@@ -151,7 +151,14 @@ fn listen(args: &Args, name: &str) -> Result<Vec<Record>, Failure> {
                 sent: false,
                 what: What::Frame(heard.frame),
             }),
-            Ok(None) | Err(Error::Interrupted) => return Ok(records),
+            Ok(None) | Err(Error::Interrupted) => {
+                if records.is_empty() {
+                    note!(
+                        "{name}: no frame was received; check that a node sends, and that the adapter has the bit rate of the bus"
+                    );
+                }
+                return Ok(records);
+            }
             Err(fault) => return Err(fault.into()),
         }
     }

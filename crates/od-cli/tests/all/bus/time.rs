@@ -138,6 +138,23 @@ fn a_log_of_any_format_is_shown_in_words() {
     assert_eq!(said.out.lines().count(), 6, "{}", said.out);
 }
 
+/// A GXMM encoder without a heartbeat sends nothing after its boot-up message.
+#[test]
+fn the_diagnosis_of_a_silent_bus_says_so() {
+    let sim = Sim::start(&["gxmm", "--node-id", "5"]);
+    let link = link(&sim);
+    let args = ["diagnose", "--link", &link, "--for", "0.5"];
+    // The boot-up message may come now.
+    odkit(&args, "");
+    let silent = odkit(&args, "");
+    assert_eq!(silent.code, 0, "{}", silent.err);
+    assert!(
+        silent.err.contains("no frame was received"),
+        "{}",
+        silent.err
+    );
+}
+
 #[test]
 fn a_bus_is_recorded_replayed_and_monitored() {
     let sim = Sim::start(&["gxmm", "--node-id", "5"]);
