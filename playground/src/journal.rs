@@ -56,7 +56,7 @@ record! {
     }
 
     /// Result of an input that adds a device, starts a lesson, or plays a script.
-    Added {
+    Applied {
         /// Its number, or null if it cannot run.
         node: Option<usize>,
         diagnostics: Vec<Diagnostic>,
@@ -76,7 +76,7 @@ impl Bus {
     ///
     /// # Errors
     /// Reason why this is not a valid input.
-    #[wasm_bindgen(unchecked_return_type = "Added")]
+    #[wasm_bindgen(unchecked_return_type = "Applied")]
     pub fn act(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "Input")] input: &JsValue,
@@ -132,8 +132,8 @@ impl Bus {
 
     /// Returns the inputs that bring an empty bench to this state, without its history; `null` if there are none.
     #[wasm_bindgen(unchecked_return_type = "Entry[] | null")]
-    pub fn still(&mut self) -> JsValue {
-        let entries = self.journal.still();
+    pub fn setup(&mut self) -> JsValue {
+        let entries = self.journal.setup();
         entries.map_or(JsValue::NULL, |all| list(all.iter().map(record)))
     }
 
@@ -187,8 +187,8 @@ pub fn check_run(
 }
 
 /// The result of an input, with the findings of its text.
-pub(crate) fn outcome(added: journal::Added, text: &str) -> Added {
-    let diagnostics = match added.trouble {
+pub(crate) fn outcome(added: journal::Applied, text: &str) -> Applied {
+    let diagnostics = match added.problem {
         InputProblem::Message(message) => vec![diagnostics::message(&message)],
         #[cfg(feature = "eds")]
         InputProblem::Findings(found) => diagnostics::findings(&found, text),
@@ -198,7 +198,7 @@ pub(crate) fn outcome(added: journal::Added, text: &str) -> Added {
     #[cfg(not(feature = "eds"))]
     let _ = text;
     let node = added.node;
-    Added { node, diagnostics }
+    Applied { node, diagnostics }
 }
 
 /// The text of the device that an input adds.

@@ -1,7 +1,7 @@
 //! The labs of the page: the master on the bench, and the physics of the bus line.
 
 use od_sim::line::cable::{QUANTA, bit_time};
-use od_sim::master::{Boot, Stage, Standing, concise};
+use od_sim::master::{Boot, BootState, Stage, concise};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -12,7 +12,7 @@ record! {
     MasterSlave {
         node: u8,
         /// `waiting`, `booting`, `started`, `failed` or `lost`.
-        standing: &'static str,
+        state: &'static str,
         /// Number of the present stage of the boot process, counted from 0; 0 to 7.
         stage: usize,
         /// Error status of CiA 302-2, a letter; empty if it has not failed.
@@ -77,8 +77,8 @@ impl Bus {
         let slave = |node| {
             let known = plan.slave(node);
             let boot = master.boot(node);
-            let status = boot.and_then(|boot| match boot.standing {
-                Standing::Failed(status) => Some(status),
+            let status = boot.and_then(|boot| match boot.state {
+                BootState::Failed(status) => Some(status),
                 _ => None,
             });
             let downloads = known.map_or(&[][..], |slave| &slave.downloads);
@@ -87,7 +87,7 @@ impl Bus {
                 .map(|byte| format!("{byte:02X} "));
             MasterSlave {
                 node: node.raw(),
-                standing: boot.map_or("waiting", |boot| boot.standing.name()),
+                state: boot.map_or("waiting", |boot| boot.state.name()),
                 stage: boot
                     .map_or(0, |boot| boot.stage as usize)
                     .min(Stage::ALL.len() - 1),

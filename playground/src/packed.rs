@@ -76,7 +76,7 @@ pub(crate) fn push_event(batch: &mut Vec<u8>, seen: &LineEvent) {
         }
         LineEvent::Disturbed(one) => one,
     };
-    let why = match one.trouble {
+    let why = match one.error {
         FrameError::NoAcknowledge => 1,
         FrameError::OtherBitRate => 2,
         FrameError::Reflections => 3,

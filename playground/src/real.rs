@@ -4,7 +4,7 @@ use od_client::watch;
 use od_model::Address;
 use od_runtime::DeviceKind;
 use od_sim::VirtualDevice;
-use od_sim::links::adapter::{self, Said};
+use od_sim::links::adapter::{self, Message};
 use od_sim::links::slcan;
 use wasm_bindgen::prelude::*;
 
@@ -31,7 +31,7 @@ impl Bus {
     ///
     /// # Errors
     /// Reason why this is not a valid input.
-    #[wasm_bindgen(js_name = addDescription, unchecked_return_type = "Added")]
+    #[wasm_bindgen(js_name = addDescription, unchecked_return_type = "Applied")]
     pub fn add_description(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "Input")] input: &JsValue,
@@ -114,7 +114,7 @@ impl Adapter {
     pub fn hear(&mut self, bus: &mut Bus, bytes: &[u8]) {
         let mut adapter = std::mem::take(&mut self.adapter);
         adapter.receive(bytes, |said| match said {
-            Said::Frame(frame) => {
+            Message::Frame(frame) => {
                 // Some adapters never confirm; if frames arrive, the channel is open.
                 self.is_open = true;
                 self.frames = self.frames.saturating_add(1);
@@ -124,11 +124,11 @@ impl Adapter {
                 self.nodes |= node.map_or(0, |node| 1 << node);
                 bus.journal.rig.hear(&frame);
             }
-            Said::Open => self.is_open = true,
-            Said::Closed => self.is_closed = true,
-            Said::Refused => self.refused = self.refused.saturating_add(1),
-            Said::Noise(_) => self.noise = self.noise.saturating_add(1),
-            Said::Nothing => {}
+            Message::Open => self.is_open = true,
+            Message::Closed => self.is_closed = true,
+            Message::Refused => self.refused = self.refused.saturating_add(1),
+            Message::Noise(_) => self.noise = self.noise.saturating_add(1),
+            Message::Nothing => {}
         });
         self.adapter = adapter;
         bus.journal.send_requests();
@@ -329,7 +329,7 @@ mod tests {
     fn begin(bus: &mut Bus, text: &str) -> Result<(), String> {
         use od_sim::journal::InputProblem;
         let added = bus.journal.act(Input::Lesson { text: text.into() });
-        match added.trouble {
+        match added.problem {
             InputProblem::Problems(all) => Err(all.iter().map(|one| one.message.clone()).collect()),
             _ => Ok(()),
         }

@@ -373,7 +373,7 @@ impl Bus {
         Err("this program has no master".into())
     }
 
-    pub(crate) fn standing(&self, _: od_wire::NodeId) -> Option<crate::master::Standing> {
+    pub(crate) fn boot_state(&self, _: od_wire::NodeId) -> Option<crate::master::BootState> {
         None
     }
 

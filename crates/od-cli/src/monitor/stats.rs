@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use od_model::values;
-use od_sim::line::bits::{INTERMISSION, bits};
+use od_sim::line::bits::occupied;
 use od_sim::stats::{Ids, Row};
 use od_tools::filter::{Filter, FilteredFrame};
 use od_wire::{CanId, Instant};
@@ -43,7 +43,7 @@ fn period(row: &Row) -> Option<f64> {
 impl Stats {
     pub(super) fn add(&mut self, told: &ExplainedFrame) {
         self.count += 1;
-        let bits = bits(&told.frame).len() as u64 + INTERMISSION;
+        let bits = occupied(&told.frame);
         self.recent.push_back((told.at, bits));
         self.forget(told.at);
         self.ids.take(told.at, &told.frame);

@@ -5,7 +5,7 @@ use od_runtime::{Frame, Instant};
 use od_wire::NodeId;
 
 use super::{Bus, STUCK, Sent};
-use crate::master::{Master, Order, Standing};
+use crate::master::{BootState, Master, Order};
 
 /// Limit of frames of the master that are kept until the line has transmitted them.
 #[cfg(feature = "serve")]
@@ -30,9 +30,9 @@ impl Bus {
     }
 
     /// The state of a node, as the master sees it; `None`: it has not begun to boot the node.
-    pub(crate) fn standing(&self, node: NodeId) -> Option<Standing> {
+    pub(crate) fn boot_state(&self, node: NodeId) -> Option<BootState> {
         let boot = self.master.as_ref()?.boot(node)?;
-        Some(boot.standing)
+        Some(boot.state)
     }
 
     /// Time when the master is due.

@@ -130,7 +130,7 @@ impl Bus {
         let ended = Ended {
             senders,
             beaten,
-            trouble: attempt.trouble,
+            error: attempt.error,
             received: attempt.received,
         };
         let medium = &mut self.line.medium;
@@ -142,7 +142,7 @@ impl Bus {
         if ended.received {
             self.deliver(&ended);
         }
-        if ended.trouble.is_none() {
+        if ended.error.is_none() {
             // Its senders have room for the next frame.
             let senders = ended.senders.iter();
             for device in senders.filter_map(|one| one.station.checked_sub(1)) {
@@ -153,13 +153,13 @@ impl Bus {
             .senders
             .iter()
             .copied()
-            .filter_map(|one| Some((one, ended.trouble?)));
+            .filter_map(|one| Some((one, ended.error?)));
         let beaten = ended.beaten.iter().map(|one| (*one, FrameError::SameId));
-        for (mut waiting, trouble) in failed.chain(beaten) {
+        for (mut waiting, error) in failed.chain(beaten) {
             let controller = self.line.controller(waiting.station);
-            waiting.failed(trouble, controller.transmit);
+            waiting.failed(error, controller.transmit);
             let condition = controller.condition();
-            self.report(&mut waiting, trouble);
+            self.report(&mut waiting, error);
             if condition != Condition::BusOff {
                 let is_passive = condition == Condition::ErrorPassive;
                 self.line.medium.again(waiting, is_passive);
@@ -210,7 +210,7 @@ impl Bus {
 
     /// Reports a failed attempt. While nothing changes between attempts, one report per second is
     /// enough.
-    fn report(&mut self, waiting: &mut Waiting, trouble: FrameError) {
+    fn report(&mut self, waiting: &mut Waiting, error: FrameError) {
         let controller = self.line.controller(waiting.station);
         let is_soon = |before: Instant| self.now.micros_since(before) < BETWEEN_REPORTS;
         if waiting.repeats && waiting.reported.is_some_and(is_soon) {
@@ -221,7 +221,7 @@ impl Bus {
             at: self.now,
             device: waiting.station.checked_sub(1),
             frame: waiting.frame,
-            trouble,
+            error,
             attempts: waiting.attempts,
             transmit_errors: controller.transmit,
             bus_off: controller.condition() == Condition::BusOff,

@@ -6,12 +6,14 @@ use od_model::typed::MapEntry;
 use od_model::{Address, Entry};
 use od_wire::AbortCode;
 use od_wire::sdo::Request;
-use od_wire::{CobId, Frame, NodeId};
+use od_wire::{CanId, CobId, Frame, NodeId};
 
 use crate::device::VirtualDevice;
 
 /// Bits of a PDO at most.
 const MOST_BITS: u8 = 64;
+/// The last PDO, counted from 0: CiA 301 has 512 in each direction.
+const MOST: u16 = 0x1FF;
 
 /// One PDO of a device.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -74,8 +76,6 @@ fn pdo(device: &VirtualDevice, mapping: u16) -> Option<Pdo> {
         value.flatten().map(|value| value as u32)
     };
     let room = (1..=MOST_BITS).filter(|sub| dictionary.entry(mapping, *sub).is_some());
-    let entries = (1..=stored(mapping, 0).unwrap_or(0).min(MOST_BITS.into()) as u8)
-        .map(|sub| MapEntry::parse(stored(mapping, sub).unwrap_or(0)));
     Some(Pdo {
         mapping,
         parameter,
@@ -84,8 +84,37 @@ fn pdo(device: &VirtualDevice, mapping: u16) -> Option<Pdo> {
         cob_id: stored(parameter, 1).map(CobId::new),
         room: room.count() as u8,
         is_fixed: !count.access.writable(),
-        entries: entries.collect(),
+        entries: if device.is_powered() {
+            entries(device, mapping)
+        } else {
+            Vec::new()
+        },
     })
+}
+
+/// The objects of a mapping parameter as it is now, first entry first; empty without such a parameter.
+pub(crate) fn entries(device: &VirtualDevice, mapping: u16) -> Vec<MapEntry> {
+    let stored = |sub| device.stored(mapping, sub).unwrap_or(0);
+    let count = stored(0).min(MOST_BITS.into()) as u8;
+    (1..=count)
+        .map(|sub| MapEntry::parse(stored(sub) as u32))
+        .collect()
+}
+
+/// The mapping parameter of the valid PDO with this CAN-ID, TPDOs first.
+pub(crate) fn with_can_id(device: &VirtualDevice, id: CanId) -> Option<u16> {
+    for first in [0x1800, 0x1400] {
+        let is_there = |index: &u16| device.dictionary().object(*index).is_some();
+        let last = (first..=first + MOST).rev().find(is_there);
+        for parameter in first..=last.unwrap_or(0) {
+            let cob_id = device.stored(parameter, 1);
+            let cob_id = cob_id.map(|raw| CobId::new(raw as u32));
+            if cob_id.is_some_and(|cob_id| cob_id.is_valid() && cob_id.can_id() == id) {
+                return Some(parameter + 0x200);
+            }
+        }
+    }
+    None
 }
 
 /// The parameter with the COB-ID of the PDO that a mapping parameter belongs to.

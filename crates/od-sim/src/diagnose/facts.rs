@@ -7,7 +7,7 @@ use od_model::{Address, Dictionary};
 use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, Instant};
 
-use crate::line::bits::bits;
+use crate::line::bits::occupied;
 use crate::logs::{BusError, Record, What};
 use crate::sdo::{Message, Observer, default_sdo};
 
@@ -226,7 +226,7 @@ impl<'a> Facts<'a> {
             match &record.what {
                 What::Error(_) => facts.errors.push(seen),
                 What::Frame(frame) => {
-                    let len = bits(frame).len() as u32 + 3;
+                    let len = occupied(frame) as u32;
                     lengths.push((seen.at, len, *frame));
                     let window = (seen.at.micros_since(facts.begin) / WINDOW) as usize;
                     // A log of a year has 315 million windows: only those up to an hour are measured.

@@ -509,7 +509,7 @@ impl Reading {
             all += 1;
             if let LineEvent::Disturbed(one) = seen {
                 failed += 1;
-                unheard += usize::from(one.trouble == FrameError::NoAcknowledge);
+                unheard += usize::from(one.error == FrameError::NoAcknowledge);
             }
         }
         let share = Share::of(failed, all);

@@ -202,8 +202,8 @@ impl Fact {
                 numbers(bus.line.measure(device + 1, *measure), comparison)
             }
             Self::Master(node, wanted) => {
-                let standing = bus.standing(*node);
-                evaluation(wanted.holds(standing), Wanted::of(standing).short())
+                let state = bus.boot_state(*node);
+                evaluation(wanted.holds(state), Wanted::of(state).short())
             }
             Self::ErrorCounter { .. } | Self::Controller(_) if !bus.line.is_real() => {
                 Err("an ideal bus line has no errors; remove `line ideal`".into())

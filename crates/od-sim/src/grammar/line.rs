@@ -9,10 +9,11 @@ use od_runtime::encoder::Fault;
 use super::action::{Action, Choice, Draw, When};
 use super::deed::Deed;
 use super::draw::drawn;
+use super::duration::is_decimal;
 use super::named_frame::NamedFrame;
 use super::problem::Problem;
 use super::shown::either;
-use super::tokens::{Tokens, is_decimal};
+use super::tokens::Tokens;
 use super::verbs::VERBS;
 use crate::logs::candump;
 

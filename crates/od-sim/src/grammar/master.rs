@@ -10,7 +10,7 @@ use super::named_frame::{Write, write};
 use super::problem::Problem;
 use super::tokens::Tokens;
 use crate::bus::Bus;
-use crate::master::{Download, Order, Standing, Status, from_concise};
+use crate::master::{BootState, Download, Order, Status, from_concise};
 
 /// Shortest SYNC period in microseconds.
 const SHORTEST_SYNC: u64 = 1000;
@@ -174,14 +174,14 @@ impl Wanted {
     }
 
     /// Returns whether a slave is in this state; `None`: the master has not begun to boot it.
-    pub(super) fn holds(self, standing: Option<Standing>) -> bool {
-        match (self, standing) {
+    pub(super) fn holds(self, state: Option<BootState>) -> bool {
+        match (self, state) {
             (Self::Waiting, None)
-            | (Self::Booting, Some(Standing::Booting))
-            | (Self::Started, Some(Standing::Started))
-            | (Self::Failed(None), Some(Standing::Failed(_)))
-            | (Self::Lost, Some(Standing::Lost)) => true,
-            (Self::Failed(Some(wanted)), Some(Standing::Failed(status))) => wanted == status,
+            | (Self::Booting, Some(BootState::Booting))
+            | (Self::Started, Some(BootState::Started))
+            | (Self::Failed(None), Some(BootState::Failed(_)))
+            | (Self::Lost, Some(BootState::Lost)) => true,
+            (Self::Failed(Some(wanted)), Some(BootState::Failed(status))) => wanted == status,
             _ => false,
         }
     }
@@ -213,13 +213,13 @@ impl Wanted {
     }
 
     /// The state of a slave as a condition names it.
-    pub(super) fn of(standing: Option<Standing>) -> Self {
-        match standing {
+    pub(super) fn of(state: Option<BootState>) -> Self {
+        match state {
             None => Self::Waiting,
-            Some(Standing::Booting) => Self::Booting,
-            Some(Standing::Started) => Self::Started,
-            Some(Standing::Failed(status)) => Self::Failed(Some(status)),
-            Some(Standing::Lost) => Self::Lost,
+            Some(BootState::Booting) => Self::Booting,
+            Some(BootState::Started) => Self::Started,
+            Some(BootState::Failed(status)) => Self::Failed(Some(status)),
+            Some(BootState::Lost) => Self::Lost,
         }
     }
 }

@@ -3,7 +3,8 @@
 //!
 //! | file | what it reads |
 //! |---|---|
-//! | `tokens`, `size` | the words of a line, durations, numbers; numbers of bytes with a unit |
+//! | `tokens` | the words of a line, numbers |
+//! | `duration`, `size` | times with a unit; numbers of bytes with a unit |
 //! | `verbs` | the table of verbs, one row per first word; `world` has those outside the bus |
 //! | `line` | a complete line: its time, then a verb or a frame |
 //! | `draw` | the numbers that a `random` line draws |
@@ -16,6 +17,7 @@ pub(crate) mod action;
 pub(crate) mod comparison;
 pub(crate) mod deed;
 pub(crate) mod draw;
+pub(crate) mod duration;
 pub(crate) mod fact;
 pub(crate) mod frames;
 pub(crate) mod line;

@@ -1,4 +1,4 @@
-//! The form of lines, texts and durations in messages.
+//! The form of lines and texts in messages.
 
 use std::format;
 use std::prelude::v1::*;
@@ -37,15 +37,6 @@ pub(crate) fn brief(message: &str) -> String {
         }
     }
     cut(&brief, MESSAGE)
-}
-
-/// Microseconds in the form of scripts.
-pub(crate) fn duration(micros: u64) -> String {
-    match (micros % 1_000_000, micros % 1000) {
-        (0, _) if micros > 0 => format!("{}s", micros / 1_000_000),
-        (_, 0) => format!("{}ms", micros / 1000),
-        _ => format!("{micros}us"),
-    }
 }
 
 /// `a, b or c`.

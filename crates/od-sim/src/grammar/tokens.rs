@@ -6,6 +6,7 @@ use std::prelude::v1::*;
 use od_runtime::encoder::Fault;
 use od_wire::nmt::Command;
 
+use super::duration;
 use super::problem::Problem;
 use super::shown::{brief, either};
 use crate::cursor::Cursor;
@@ -223,19 +224,8 @@ impl<'t> Tokens<'t> {
     pub(crate) fn duration(&mut self) -> Result<u64, Problem> {
         let here = *self;
         let word = self.next();
-        let unit = word
-            .find(|c: char| c.is_ascii_alphabetic())
-            .unwrap_or(word.len());
-        let (number, unit) = word.split_at(unit);
-        let micros = stamp::seconds(number).and_then(|micros| match unit {
-            "us" => Some(micros / 1_000_000),
-            "ms" => Some(micros / 1000),
-            "s" => Some(micros),
-            "min" => micros.checked_mul(60),
-            _ => None,
-        });
-        if micros.is_some() || (is_decimal(number) && matches!(unit, "us" | "ms" | "s" | "min")) {
-            return here.limited(micros);
+        if let Some(micros) = duration::parse(word) {
+            return here.limited(Some(micros));
         }
         let message = match word {
             "" => String::from("a duration is missing"),
@@ -259,15 +249,6 @@ impl<'t> Tokens<'t> {
                 here.problem(message, format!("write a number from {low} to {high}"))
             })
     }
-}
-
-/// Digits with at most one decimal point, as many as there are.
-pub(crate) fn is_decimal(text: &str) -> bool {
-    text.matches('.').count() <= 1
-        && text.bytes().any(|byte| byte.is_ascii_digit())
-        && text
-            .bytes()
-            .all(|byte| byte.is_ascii_digit() || byte == b'.')
 }
 
 /// Reads the name of a fault.

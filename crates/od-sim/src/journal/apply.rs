@@ -17,11 +17,11 @@ use crate::script::{Bare, Limited};
 
 /// Result of an input that adds a device, starts a lesson or runs a script.
 #[derive(Debug, Default)]
-pub struct Added {
+pub struct Applied {
     /// Number of the device, 0 for a lesson; `None` if it cannot run.
     pub node: Option<usize>,
     /// The findings or problems of the text.
-    pub trouble: InputProblem,
+    pub problem: InputProblem,
 }
 
 /// Findings of an EDS text, problems of a lesson or a script.
@@ -51,17 +51,17 @@ impl InputProblem {
     }
 }
 
-impl Added {
+impl Applied {
     fn failed(why: impl Into<String>) -> Self {
         Self {
             node: None,
-            trouble: InputProblem::Message(why.into()),
+            problem: InputProblem::Message(why.into()),
         }
     }
 }
 
 impl Journal {
-    pub(super) fn apply(&mut self, input: &Input) -> Added {
+    pub(super) fn apply(&mut self, input: &Input) -> Applied {
         let rig = &mut self.rig;
         // A script says itself which of its lines act.
         if !matches!(input, Input::Script { .. } | Input::Seed { .. }) {
@@ -162,12 +162,12 @@ impl Journal {
             Input::Leave {} => self.end_lesson(),
             Input::Script { ref text } => return self.run_script(text),
         }
-        Added::default()
+        Applied::default()
     }
 
-    fn add(&mut self, source: &Source, node_id: u8, place: Option<usize>) -> Added {
+    fn add(&mut self, source: &Source, node_id: u8, place: Option<usize>) -> Applied {
         let Some(id) = NodeId::new(node_id) else {
-            return Added::failed("a node ID is 1 to 127");
+            return Applied::failed("a node ID is 1 to 127");
         };
         let there = self.rig.bus.devices().len();
         let needed = |channels: u8| match place {
@@ -177,15 +177,15 @@ impl Journal {
         let full = |channels| there + needed(channels) > MOST_DEVICES;
         let mut added = match source {
             Source::Builtin { name } => match self.roster.iter().find(|kind| kind.name == name) {
-                Some(kind) if full(kind.channels) => Added::failed(Limits::PAGE.room()),
-                Some(kind) => Added {
+                Some(kind) if full(kind.channels) => Applied::failed(Limits::PAGE.room()),
+                Some(kind) => Applied {
                     node: Some(self.rig.put_kind(kind, id, place)),
-                    trouble: InputProblem::None,
+                    problem: InputProblem::None,
                 },
-                None => Added::failed(format!("device `{name}` does not exist")),
+                None => Applied::failed(format!("device `{name}` does not exist")),
             },
             #[cfg(feature = "eds")]
-            Source::Eds { .. } if full(1) => Added::failed(Limits::PAGE.room()),
+            Source::Eds { .. } if full(1) => Applied::failed(Limits::PAGE.room()),
             #[cfg(feature = "eds")]
             Source::Eds { text, lenient, .. } => {
                 let options = crate::device::loaded::EdsOptions {
@@ -193,13 +193,13 @@ impl Journal {
                     lenient: *lenient,
                 };
                 let (device, findings) = VirtualDevice::read_eds(text, options);
-                Added {
+                Applied {
                     node: device.map(|device| self.rig.put(device, place)),
-                    trouble: InputProblem::Findings(findings),
+                    problem: InputProblem::Findings(findings),
                 }
             }
             #[cfg(not(feature = "eds"))]
-            Source::Eds { .. } => Added::failed("EDS texts are not supported"),
+            Source::Eds { .. } => Applied::failed("EDS texts are not supported"),
         };
         let devices = self.rig.bus.devices();
         if let Some(node) = added.node {
@@ -237,16 +237,16 @@ fn source_of(devices: &[AddedDevice], node: usize) -> Source {
 
 #[cfg(feature = "lessons")]
 impl Journal {
-    fn start_lesson(&mut self, text: &str) -> Added {
+    fn start_lesson(&mut self, text: &str) -> Applied {
         match self
             .rig
             .start_lesson(text, &mut Limited(&mut Bare(self.roster), Limits::PAGE))
         {
             Ok(lesson) => self.lesson = Some(lesson),
             Err(problems) => {
-                return Added {
+                return Applied {
                     node: None,
-                    trouble: InputProblem::Problems(problems),
+                    problem: InputProblem::Problems(problems),
                 };
             }
         }
@@ -278,9 +278,9 @@ impl Journal {
             }
         };
         self.devices = self.rig.bus.devices().iter().map(placed).collect();
-        Added {
+        Applied {
             node: Some(0),
-            trouble: InputProblem::None,
+            problem: InputProblem::None,
         }
     }
 
@@ -289,26 +289,26 @@ impl Journal {
         self.lesson = None;
     }
 
-    fn run_script(&mut self, text: &str) -> Added {
+    fn run_script(&mut self, text: &str) -> Applied {
         match self
             .rig
             .run_script(text, &mut Limited(&mut Bare(self.roster), Limits::PAGE))
         {
-            Ok(()) => Added::default(),
-            Err(why) => Added::failed(why),
+            Ok(()) => Applied::default(),
+            Err(why) => Applied::failed(why),
         }
     }
 }
 
 #[cfg(not(feature = "lessons"))]
 impl Journal {
-    fn start_lesson(&mut self, _: &str) -> Added {
-        Added::failed("lessons are not supported")
+    fn start_lesson(&mut self, _: &str) -> Applied {
+        Applied::failed("lessons are not supported")
     }
 
     fn end_lesson(&mut self) {}
 
-    fn run_script(&mut self, _: &str) -> Added {
-        Added::failed("scripts are not supported")
+    fn run_script(&mut self, _: &str) -> Applied {
+        Applied::failed("scripts are not supported")
     }
 }

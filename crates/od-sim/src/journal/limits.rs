@@ -130,7 +130,7 @@ mod tests {
         for text in ["wait 1000000000s", &"device gxmm\n".repeat(2000)] {
             let added = journal.act(Input::Script { text: text.into() });
             assert!(
-                matches!(added.trouble, InputProblem::Message(why) if why.contains("limit") || why.contains("room"))
+                matches!(added.problem, InputProblem::Message(why) if why.contains("limit") || why.contains("room"))
             );
             assert_eq!(journal.rig.bus.now(), at, "nothing of it happened");
         }
@@ -138,9 +138,9 @@ mod tests {
         let text = "send 601#2B 00 18 05 01 00\nnmt start\nwait 500s";
         let added = journal.act(Input::Script { text: text.into() });
         assert!(
-            matches!(&added.trouble, InputProblem::Message(why) if why.contains("100000 frames")),
+            matches!(&added.problem, InputProblem::Message(why) if why.contains("100000 frames")),
             "{:?}",
-            added.trouble
+            added.problem
         );
         let lesson = "+++\ntitle = \"x\"\nlevel = 1\nminutes = 1\n+++\n```set-up\ndevice gxmm\nwait 1000000000s\n```\n\n\
             ## One\ntext\n```checkpoint\nstate operational\n```\n### Hint\nx\n```solution\nnmt start\n```\n\
@@ -150,9 +150,9 @@ mod tests {
         });
         assert!(added.node.is_none());
         assert!(
-            matches!(&added.trouble, InputProblem::Problems(all) if format!("{all:?}").contains("limit")),
+            matches!(&added.problem, InputProblem::Problems(all) if format!("{all:?}").contains("limit")),
             "{:?}",
-            added.trouble
+            added.problem
         );
     }
 }

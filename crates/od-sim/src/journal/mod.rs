@@ -7,7 +7,7 @@ mod field;
 mod input;
 mod limits;
 mod parts;
-mod still;
+mod setup;
 #[cfg(test)]
 mod tests;
 
@@ -18,7 +18,7 @@ use od_wire::{Instant, NodeId};
 
 use crate::rig::Rig;
 
-pub use self::apply::{Added, InputProblem};
+pub use self::apply::{Applied, InputProblem};
 pub use self::field::{Error, Fields, Sink, Value};
 pub use self::input::{Entry, Input, frame};
 pub use self::limits::check;
@@ -109,7 +109,7 @@ impl Journal {
     }
 
     /// Carries out an input now. Entries of an earlier run that are still to come are dropped.
-    pub fn act(&mut self, input: Input) -> Added {
+    pub fn act(&mut self, input: Input) -> Applied {
         if let Input::Lesson { .. } = input {
             return self.begin_lesson(input);
         }
@@ -134,7 +134,7 @@ impl Journal {
 
     /// Adds the description of a node of the real bus, like `Input::Add`.
     #[cfg(feature = "real")]
-    pub fn describe(&mut self, input: &Input) -> Added {
+    pub fn describe(&mut self, input: &Input) -> Applied {
         self.rig.describes = true;
         let added = self.apply(input);
         self.rig.describes = false;
@@ -150,7 +150,7 @@ impl Journal {
     }
 
     /// A lesson starts at time zero and replaces the bench; a wrong one changes nothing.
-    fn begin_lesson(&mut self, input: Input) -> Added {
+    fn begin_lesson(&mut self, input: Input) -> Applied {
         if self.is_live {
             return self.apply(&input);
         }
@@ -202,7 +202,7 @@ impl Journal {
             let input = &mut self.entries[self.done].input;
             let input = std::mem::replace(input, Input::Leave {});
             let added = self.apply(&input);
-            self.refused.extend(added.trouble.why(added.node.is_some()));
+            self.refused.extend(added.problem.why(added.node.is_some()));
             self.entries[self.done].input = input;
             self.done += 1;
         }

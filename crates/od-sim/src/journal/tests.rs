@@ -267,7 +267,7 @@ fn news_come_once_and_begin_at_the_first_difference() {
     );
     assert!(journal.act(add("none", 5)).node.is_none());
     assert!(matches!(
-        journal.act(add("gxmm", 0)).trouble,
+        journal.act(add("gxmm", 0)).problem,
         InputProblem::Message(_)
     ));
     assert_eq!(journal.news(), None);
@@ -311,7 +311,7 @@ fn a_bench_without_its_history_is_the_same() {
         },
     ]);
     first.advance(1_000_000, usize::MAX);
-    let entries = first.still().expect("devices in order");
+    let entries = first.setup().expect("devices in order");
     let mut second = Journal::new(DEVICES);
     second.restore(entries, true);
     assert!(frames(&mut second).is_empty());
@@ -341,7 +341,7 @@ fn a_bench_without_its_history_is_the_same() {
         .iter()
         .filter(|one| one.name.contains('.'))
         .count();
-    assert_eq!(moved.still().is_none(), channels > 0);
+    assert_eq!(moved.setup().is_none(), channels > 0);
 }
 
 /// Changes that a script made to the master and the bus line are part of the bench without its history.
@@ -352,7 +352,7 @@ fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the
                 master write 5 1017h = 100\nmaster heartbeat 5 250ms\nmaster sync 50ms";
     let script = Input::Script { text: text.into() };
     let mut first = bench(vec![add("gxmm", 5), add("gxmm", 6), script]);
-    let entries = first.still().expect("devices in order");
+    let entries = first.setup().expect("devices in order");
     let mut second = Journal::new(DEVICES);
     second.restore(entries, true);
     second.advance(1000, usize::MAX);
@@ -367,7 +367,7 @@ fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the
     assert_eq!(seen(&second).1.deviation(2), -15_000);
     // A bench without them has no script, which the first module of the page could not run.
     let plain = bench(vec![add("gxmm", 5)])
-        .still()
+        .setup()
         .expect("devices in order");
     assert!(
         !plain
@@ -380,27 +380,27 @@ fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the
 #[cfg(all(feature = "lessons", feature = "training"))]
 #[test]
 fn a_bench_without_its_history_has_the_nodes_that_its_master_has_started() {
-    use crate::master::Standing;
+    use crate::master::BootState;
 
     let text = "master slave 5\nmaster write 5 1017h = 100\nmaster heartbeat 5 250ms\nmaster slave 6\nmaster expect 6 1018h:02 = 99\nmaster boot";
     let script = Input::Script { text: text.into() };
     let mut first = bench(vec![add("gxmm", 5), add("gxmm", 6), script]);
     first.advance(2_000_000, usize::MAX);
-    let standing = |journal: &Journal, node: u8| {
+    let state = |journal: &Journal, node: u8| {
         let node = od_runtime::NodeId::new(node).expect("1 to 127");
         let boot = journal.rig.bus.master().and_then(|it| it.boot(node));
-        boot.map(|boot| boot.standing)
+        boot.map(|boot| boot.state)
     };
-    assert_eq!(standing(&first, 5), Some(Standing::Started));
+    assert_eq!(state(&first, 5), Some(BootState::Started));
     let mut second = Journal::new(DEVICES);
-    second.restore(first.still().expect("devices in order"), true);
+    second.restore(first.setup().expect("devices in order"), true);
     second.advance(1_000_000, usize::MAX);
     assert!(second.refused().is_empty());
-    assert_eq!(standing(&second, 5), Some(Standing::Started));
-    assert_eq!(standing(&second, 6), None, "it waits for the next boot");
+    assert_eq!(state(&second, 5), Some(BootState::Started));
+    assert_eq!(state(&second, 6), None, "it waits for the next boot");
     second.act(Input::Power { node: 0, on: false });
     second.advance(2_000_000, usize::MAX);
-    assert_eq!(standing(&second, 5), Some(Standing::Lost));
+    assert_eq!(state(&second, 5), Some(BootState::Lost));
 }
 
 #[test]
@@ -408,7 +408,7 @@ fn the_bus_has_room_for_16_devices_in_a_repeated_run_too() {
     let mut journal = bench((0..20).map(|_| add("gxmm", 5)).collect());
     assert_eq!(journal.devices().len(), 16);
     let added = journal.act(add("gxmm", 5));
-    assert!(matches!(added.trouble, InputProblem::Message(why) if why.contains("16 devices")));
+    assert!(matches!(added.problem, InputProblem::Message(why) if why.contains("16 devices")));
     assert_eq!(
         journal.act(in_place(0)).node,
         Some(0),

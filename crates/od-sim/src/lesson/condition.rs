@@ -6,10 +6,10 @@ use std::prelude::v1::*;
 use od_runtime::Frame;
 
 use crate::device::VirtualDevice;
+use crate::grammar::duration::duration;
 use crate::grammar::fact::Fact;
 use crate::grammar::frames::Frames;
 use crate::grammar::pattern::Pattern;
-use crate::grammar::shown::duration;
 use crate::script::Origin;
 
 /// One line of a checkpoint: one of its alternatives must hold.

@@ -50,7 +50,7 @@ pub struct Bit {
 }
 
 /// Bits between two frames (intermission).
-pub const INTERMISSION: u64 = 3;
+pub(super) const INTERMISSION: u64 = 3;
 /// Bits after the acknowledge slot.
 pub(super) const BEHIND_ACKNOWLEDGE: u64 = 8;
 /// Polynomial of the CRC sequence without its highest bit.
@@ -91,6 +91,20 @@ pub fn bits(frame: &Frame) -> Vec<Bit> {
     end.put(Part::End, 0x7F, 7);
     bits.append(&mut end.0);
     bits
+}
+
+/// Returns the number of bits for which a frame keeps the line busy: an acknowledged frame with its stuff bits, and the
+/// intermission after it.
+///
+/// ```
+/// use od_sim::line::bits::occupied;
+/// use od_wire::Frame;
+///
+/// // A SYNC message: 44 bits of a frame without data, 4 stuff bits, 3 bits of intermission.
+/// assert_eq!(occupied(&Frame::standard(0x080, &[])), 51);
+/// ```
+pub fn occupied(frame: &Frame) -> u64 {
+    count(frame) + INTERMISSION
 }
 
 /// Returns the number of bits of an acknowledged frame without a list; [`bits`] has the same number.

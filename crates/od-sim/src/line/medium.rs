@@ -35,7 +35,7 @@ pub struct Disturbance {
     /// The frame.
     pub frame: Frame,
     /// Reason.
-    pub trouble: FrameError,
+    pub error: FrameError,
     /// Number of failed attempts of this frame so far, this one included.
     pub attempts: u32,
     /// Transmit error counter of the sender after the attempt.
@@ -62,8 +62,8 @@ const SUSPENSION: u64 = 8;
 const NANOS: u64 = 1000;
 
 /// Bits of an attempt to send a frame, without the intermission.
-pub(super) fn bits_of(frame: &Frame, trouble: Option<FrameError>) -> u64 {
-    match trouble {
+pub(super) fn bits_of(frame: &Frame, error: Option<FrameError>) -> u64 {
+    match error {
         None => bits::count(frame),
         Some(FrameError::NoAcknowledge) => bits::count(frame) - BEHIND_ACKNOWLEDGE + ERROR_FRAME,
         Some(FrameError::ShortCircuit) => 1 + ERROR_FRAME,
@@ -99,9 +99,9 @@ pub(crate) struct Waiting {
 impl Waiting {
     /// Notes a failed attempt, after which the sender has this transmit error counter. Without an acknowledgement it stops
     /// at 128: the next attempts change nothing.
-    pub(crate) fn failed(&mut self, trouble: FrameError, transmit_errors: u16) {
+    pub(crate) fn failed(&mut self, error: FrameError, transmit_errors: u16) {
         self.repeats =
-            trouble == FrameError::NoAcknowledge && self.transmit_errors == transmit_errors;
+            error == FrameError::NoAcknowledge && self.transmit_errors == transmit_errors;
         self.attempts = self.attempts.saturating_add(1);
         self.transmit_errors = transmit_errors;
     }
@@ -122,7 +122,7 @@ pub(crate) struct Ended {
     /// Senders that failed while the others continued their frame.
     pub(crate) beaten: Vec<Waiting>,
     /// Reason of the failure; `None`: the frame came through.
-    pub(crate) trouble: Option<FrameError>,
+    pub(crate) error: Option<FrameError>,
     /// Whether the receivers take the frame.
     pub(crate) received: bool,
 }

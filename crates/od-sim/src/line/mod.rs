@@ -43,7 +43,7 @@ pub(crate) struct Station {
 /// The result of an attempt of one or more stations with the same CAN-ID.
 pub(super) struct Attempt {
     /// Reason of the failure; `None` if the frame will get through.
-    pub(super) trouble: Option<FrameError>,
+    pub(super) error: Option<FrameError>,
     /// Whether the receivers take the frame. On a line that is too long they do, although the sender repeats it.
     pub(super) received: bool,
     /// Bits until the line is free for the intermission.
@@ -264,11 +264,11 @@ impl Line {
             for (station, _) in starters {
                 self.controllers[*station].erred_sending();
             }
-            let trouble = Some(FrameError::ShortCircuit);
+            let error = Some(FrameError::ShortCircuit);
             return Attempt {
-                trouble,
+                error,
                 received: false,
-                bits: medium::bits_of(&left[0].1, trouble),
+                bits: medium::bits_of(&left[0].1, error),
                 beaten,
             };
         }
@@ -287,7 +287,7 @@ impl Line {
                     }
                 }
                 return Attempt {
-                    trouble: Some(FrameError::SameId),
+                    error: Some(FrameError::SameId),
                     received: false,
                     bits: medium::bits_until(place),
                     beaten,
@@ -300,11 +300,11 @@ impl Line {
             }
         }
         let senders: Vec<usize> = left.iter().map(|(station, _)| *station).collect();
-        let (trouble, received) = self.attempt(stations, &senders, &beaten, &left[0].1);
+        let (error, received) = self.attempt(stations, &senders, &beaten, &left[0].1);
         Attempt {
-            trouble,
+            error,
             received,
-            bits: medium::bits_of(&left[0].1, trouble),
+            bits: medium::bits_of(&left[0].1, error),
             beaten,
         }
     }
@@ -353,7 +353,7 @@ impl Line {
             line.controller(*station).condition() == Condition::ErrorActive
         };
         let is_late = self.is_late(rate);
-        let trouble = if strangers.iter().any(|other| destroys(self, other)) {
+        let error = if strangers.iter().any(|other| destroys(self, other)) {
             Some(FrameError::OtherBitRate)
         } else if self.is_unlucky(rate) || self.is_slow(rate, others.len() + senders.len()) {
             Some(FrameError::Reflections)
@@ -364,8 +364,8 @@ impl Line {
         };
         // The error flag of an active sender begins after the acknowledge slot and destroys the frame.
         let has_active = senders.iter().any(|sender| destroys(self, sender));
-        let is_unheard = trouble == Some(FrameError::NoAcknowledge);
-        let received = trouble.is_none() || is_unheard && is_late && !has_active;
+        let is_unheard = error == Some(FrameError::NoAcknowledge);
+        let received = error.is_none() || is_unheard && is_late && !has_active;
         let sees_dominant = !is_unheard || has_active || !follows.is_empty();
         // A station that destroys a frame that all others accept was the first to see the error.
         let by = if others.iter().any(same) { 8 } else { 1 };
@@ -374,7 +374,7 @@ impl Line {
         }
         for sender in senders {
             let controller = &mut self.controllers[*sender];
-            match trouble {
+            match error {
                 None => controller.sent(),
                 Some(_) if controller.transmit >= PASSIVE && !sees_dominant => {}
                 Some(_) => controller.erred_sending(),
@@ -387,7 +387,7 @@ impl Line {
                 self.controllers[station].erred_receiving(1);
             }
         }
-        (trouble, received)
+        (error, received)
     }
 
     /// Returns whether reflections destroy this attempt. A faster line makes it more likely.

@@ -25,9 +25,9 @@ fn send(line: &mut Line, stations: &[Station], from: usize) -> (Vec<FrameError>,
         let frame = Frame::standard(0x80, &[]);
         match line
             .try_once(Instant::ZERO, stations, &[(from, frame)])
-            .trouble
+            .error
         {
-            Some(trouble) => failed.push(trouble),
+            Some(error) => failed.push(error),
             None => return (failed, true),
         }
     }
@@ -81,14 +81,14 @@ fn different_frames_with_one_identifier_destroy_each_other_while_error_active() 
     for _ in 0..16 {
         let attempt = both();
         assert_eq!(
-            (attempt.trouble, attempt.beaten),
+            (attempt.error, attempt.beaten),
             (Some(FrameError::SameId), vec![])
         );
         assert!((44..62).contains(&attempt.bits), "{}", attempt.bits);
     }
     // Error passive, the one with the recessive bit cannot stop the other.
     let attempt = both();
-    assert_eq!((attempt.trouble, attempt.beaten), (None, vec![2]));
+    assert_eq!((attempt.error, attempt.beaten), (None, vec![2]));
     assert_eq!(line.controller(1).transmit, 127);
     assert_eq!(line.controller(2).transmit, 136);
     assert_eq!(line.controller(0).receive, 15);
@@ -100,10 +100,10 @@ fn equal_frames_of_one_moment_are_one_frame_and_need_a_third_station_to_acknowle
     let boot_up = Frame::standard(0x701, &[0]);
     let both = [(1, boot_up), (2, boot_up)];
     let attempt = line.try_once(Instant::ZERO, &stations, &both);
-    assert_eq!((attempt.trouble, attempt.beaten), (None, vec![]));
+    assert_eq!((attempt.error, attempt.beaten), (None, vec![]));
     line.set_plugged(0, false);
     let attempt = line.try_once(Instant::ZERO, &stations, &both);
-    assert_eq!(attempt.trouble, Some(FrameError::NoAcknowledge));
+    assert_eq!(attempt.error, Some(FrameError::NoAcknowledge));
     assert_eq!(line.controller(2).transmit, 8);
 }
 
@@ -122,7 +122,7 @@ fn an_error_passive_sender_counts_if_it_sees_the_error_flag_of_another() {
     let both = [(1, boot_up), (2, boot_up)];
     for attempt in 1..=16 {
         let outcome = line.try_once(Instant::ZERO, &stations, &both);
-        assert_eq!(outcome.trouble, Some(FrameError::NoAcknowledge));
+        assert_eq!(outcome.error, Some(FrameError::NoAcknowledge));
         let is_off = attempt == 16;
         assert_eq!(
             line.controller(1).condition() == Condition::BusOff,
@@ -146,7 +146,7 @@ fn a_late_acknowledgement_leads_to_bus_off_and_frames_that_arrive_several_times(
     let mut received = Vec::new();
     while line.controller(1).condition() != Condition::BusOff {
         let attempt = line.try_once(Instant::ZERO, &stations, &[(1, frame)]);
-        assert_eq!(attempt.trouble, Some(FrameError::NoAcknowledge));
+        assert_eq!(attempt.error, Some(FrameError::NoAcknowledge));
         received.push(attempt.received);
     }
     assert_eq!(received.len(), 32);
@@ -167,7 +167,7 @@ fn on_a_short_circuited_line_each_sender_goes_bus_off() {
     for starters in [&[(1, frame)][..], &[(0, frame), (2, other)]] {
         for _ in 0..32 {
             let attempt = line.try_once(Instant::ZERO, &stations, starters);
-            assert_eq!(attempt.trouble, Some(FrameError::ShortCircuit));
+            assert_eq!(attempt.error, Some(FrameError::ShortCircuit));
             assert!(!attempt.received);
         }
     }
@@ -179,7 +179,7 @@ fn on_a_short_circuited_line_each_sender_goes_bus_off() {
     }
     line.cable.shorted = false;
     let attempt = line.try_once(Instant::ZERO, &stations, &[(1, frame)]);
-    assert_eq!(attempt.trouble, None);
+    assert_eq!(attempt.error, None);
 }
 
 #[test]

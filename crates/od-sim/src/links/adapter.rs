@@ -15,7 +15,7 @@ const LONGEST: usize = 256;
 
 /// Line of an adapter.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Said {
+pub enum Message {
     /// A frame of the bus.
     Frame(Frame),
     /// The channel is open.
@@ -74,12 +74,12 @@ impl Adapter {
     }
 
     /// Handles bytes from the adapter.
-    pub fn receive(&mut self, bytes: &[u8], mut said: impl FnMut(Said)) {
+    pub fn receive(&mut self, bytes: &[u8], mut handle: impl FnMut(Message)) {
         for byte in bytes {
             match byte {
                 b'\r' | 0x07 => {
                     let line = std::mem::take(&mut self.line);
-                    said(self.line(&line, *byte == b'\r'));
+                    handle(self.line(&line, *byte == b'\r'));
                     self.line = line;
                     self.line.clear();
                 }
@@ -91,36 +91,36 @@ impl Adapter {
     }
 
     /// Handles a line, given without its end. `is_right` is false if the line ended with a bell, which marks an error.
-    pub fn line(&mut self, line: &[u8], is_right: bool) -> Said {
+    pub fn line(&mut self, line: &[u8], is_right: bool) -> Message {
         if let Some(frame) = slcan::frame_of(line) {
-            return Said::Frame(frame);
+            return Message::Frame(frame);
         }
         match line {
             [] => self.answer(is_right),
-            [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Said::Nothing,
+            [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Message::Nothing,
             // The end of a line whose beginning another reader received.
-            _ if !self.is_open => Said::Nothing,
-            line => Said::Noise(line.to_vec()),
+            _ if !self.is_open => Message::Nothing,
+            line => Message::Noise(line.to_vec()),
         }
     }
 
     /// An answer without text: accepted, or an error.
-    fn answer(&mut self, is_right: bool) -> Said {
+    fn answer(&mut self, is_right: bool) -> Message {
         if self.is_open {
             return if is_right {
-                Said::Nothing
+                Message::Nothing
             } else {
-                Said::Refused
+                Message::Refused
             };
         }
         self.due = self.due.saturating_sub(1);
         match (self.due, is_right) {
             (0, true) => {
                 self.is_open = true;
-                Said::Open
+                Message::Open
             }
-            (0, false) => Said::Closed,
-            _ => Said::Nothing,
+            (0, false) => Message::Closed,
+            _ => Message::Nothing,
         }
     }
 }
@@ -131,7 +131,7 @@ mod tests {
     use crate::links::codec::{Codec, Step};
     use od_wire::Instant;
 
-    fn said(adapter: &mut Adapter, bytes: &[u8]) -> Vec<Said> {
+    fn messages(adapter: &mut Adapter, bytes: &[u8]) -> Vec<Message> {
         let mut all = Vec::new();
         adapter.receive(bytes, |one| all.push(one));
         all
@@ -158,8 +158,8 @@ mod tests {
                 }
             }
             assert_eq!(
-                said(&mut adapter, &answer).last(),
-                Some(&Said::Open),
+                messages(&mut adapter, &answer).last(),
+                Some(&Message::Open),
                 "{rate:?}"
             );
         }
@@ -177,20 +177,26 @@ mod tests {
                 })
                 .is_some_and(|text| text.ends_with(b"L\r"))
         );
-        assert_eq!(said(&mut adapter, b"\r\r\x07").last(), Some(&Said::Closed));
-        assert!(adapter.begin(at(Some(500))).is_some());
-        assert_eq!(said(&mut adapter, b"\r\r\r\r").last(), Some(&Said::Open));
-        assert_eq!(said(&mut adapter, b"t7011"), []);
-        let boot = Said::Frame(Frame::standard(0x701, &[5]));
         assert_eq!(
-            said(&mut adapter, b"05\rz\r\x07"),
-            [boot, Said::Nothing, Said::Refused]
+            messages(&mut adapter, b"\r\r\x07").last(),
+            Some(&Message::Closed)
+        );
+        assert!(adapter.begin(at(Some(500))).is_some());
+        assert_eq!(
+            messages(&mut adapter, b"\r\r\r\r").last(),
+            Some(&Message::Open)
+        );
+        assert_eq!(messages(&mut adapter, b"t7011"), []);
+        let boot = Message::Frame(Frame::standard(0x701, &[5]));
+        assert_eq!(
+            messages(&mut adapter, b"05\rz\r\x07"),
+            [boot, Message::Nothing, Message::Refused]
         );
         let long = [b'x'; 2 * LONGEST];
-        assert_eq!(said(&mut adapter, &long), []);
+        assert_eq!(messages(&mut adapter, &long), []);
         assert_eq!(
-            said(&mut adapter, b"\r"),
-            [Said::Noise(vec![b'x'; LONGEST])]
+            messages(&mut adapter, b"\r"),
+            [Message::Noise(vec![b'x'; LONGEST])]
         );
     }
 }

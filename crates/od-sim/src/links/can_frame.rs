@@ -14,16 +14,6 @@ const EXTENDED: u32 = 1 << 31;
 const REMOTE: u32 = 1 << 30;
 const ERROR: u32 = 1 << 29;
 
-/// Returns whether a CAN interface of Linux is up; `None` if the system does not say. An interface that comes up
-/// later works, too.
-#[cfg(all(feature = "serve", target_os = "linux"))]
-pub fn is_up(interface: &str) -> Option<bool> {
-    const IFF_UP: u32 = 1;
-    let flags = std::fs::read_to_string(std::format!("/sys/class/net/{interface}/flags")).ok()?;
-    let flags = u32::from_str_radix(flags.trim().strip_prefix("0x")?, 16).ok()?;
-    Some(flags & IFF_UP != 0)
-}
-
 /// The codec of a CAN socket.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CanSocket;

@@ -13,7 +13,7 @@ use super::status::{Stage, Status};
 
 /// The state of a slave, as its master sees it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Standing {
+pub enum BootState {
     /// The process runs.
     Booting,
     /// The process is done: the master has started the node.
@@ -24,7 +24,7 @@ pub enum Standing {
     Lost,
 }
 
-impl Standing {
+impl BootState {
     /// `booting`, `started`, `failed`, `lost`.
     pub const fn name(self) -> &'static str {
         match self {
@@ -42,7 +42,7 @@ pub struct Boot {
     /// The node.
     pub node: NodeId,
     /// The state.
-    pub standing: Standing,
+    pub state: BootState,
     /// The present stage, or the one at which the process ended.
     pub stage: Stage,
     /// The reason of a failure with the values that differ, in words; otherwise empty.
@@ -61,7 +61,7 @@ impl Boot {
     pub(super) fn new(node: NodeId) -> Self {
         Self {
             node,
-            standing: Standing::Booting,
+            state: BootState::Booting,
             stage: Stage::List,
             reason: String::new(),
             is_silent: false,
@@ -93,7 +93,7 @@ impl Boot {
         for stage in Stage::ALL {
             self.enter(stage, now);
         }
-        self.standing = Standing::Started;
+        self.state = BootState::Started;
         let time = plan.slave(self.node).map_or(0, |slave| slave.heartbeat);
         if time > 0 {
             client.watch(self.node, Duration::from_micros(time));
@@ -164,14 +164,14 @@ impl Boot {
             // A heartbeat without a boot-up message: the node was disconnected, and its configuration is unknown.
             Event::Back(node)
                 if *node == self.node
-                    && self.standing == Standing::Lost
+                    && self.state == BootState::Lost
                     && client.state(*node) != Some(State::Initialising) =>
             {
                 self.begin(plan, client, now);
             }
-            Event::Lost(node) if *node == self.node && self.standing == Standing::Started => {
+            Event::Lost(node) if *node == self.node && self.state == BootState::Started => {
                 let time = plan.slave(self.node).map_or(0, |slave| slave.heartbeat);
-                self.standing = Standing::Lost;
+                self.state = BootState::Lost;
                 self.reason = format!("no heartbeat for {} ms", time / 1000);
             }
             _ => {}
@@ -180,7 +180,7 @@ impl Boot {
 
     /// Handles a heartbeat of the node.
     pub(super) fn handle_heartbeat(&mut self, client: &mut Client, now: Instant) {
-        if self.stage == Stage::ErrorControl && self.standing == Standing::Booting {
+        if self.stage == Stage::ErrorControl && self.state == BootState::Booting {
             self.start(client, now);
         }
     }
@@ -190,7 +190,7 @@ impl Boot {
             client.cancel(now, job);
         }
         client.unwatch(self.node);
-        self.standing = Standing::Booting;
+        self.state = BootState::Booting;
         self.reason.clear();
         self.is_silent = false;
         self.entry = 0;
@@ -204,7 +204,7 @@ impl Boot {
 
     fn fail(&mut self, client: &mut Client, status: Status, reason: String) {
         client.unwatch(self.node);
-        self.standing = Standing::Failed(status);
+        self.state = BootState::Failed(status);
         self.reason = reason;
     }
 
@@ -299,6 +299,6 @@ impl Boot {
         self.deadline = None;
         self.enter(Stage::Start, now);
         client.nmt(Some(self.node), Command::Start);
-        self.standing = Standing::Started;
+        self.state = BootState::Started;
     }
 }

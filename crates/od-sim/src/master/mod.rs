@@ -20,7 +20,7 @@ use od_client::{Client, Event, lss, watch};
 use od_wire::nmt::State;
 use od_wire::{Duration, Frame, Instant, NodeId};
 
-pub use self::boot::{Boot, Standing};
+pub use self::boot::{Boot, BootState};
 pub use self::plan::{Download, Order, Plan, Slave, concise, from_concise};
 pub use self::status::{Stage, Status};
 use crate::sdo::is_timeout;

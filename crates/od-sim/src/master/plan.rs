@@ -6,6 +6,8 @@ use std::prelude::v1::*;
 use od_model::Address;
 use od_wire::NodeId;
 
+use crate::grammar::duration::duration;
+
 /// Limit of downloads in the list of one slave.
 pub(crate) const MOST_DOWNLOADS: usize = 1000;
 /// Boot time without another order, in microseconds.
@@ -96,10 +98,10 @@ impl Plan {
             slave.add_lines(&mut lines);
         }
         if self.boot_time != BOOT_TIME {
-            lines.push(format!("boot-time {}", time(self.boot_time)));
+            lines.push(format!("boot-time {}", duration(self.boot_time)));
         }
         if self.sync > 0 {
-            lines.push(format!("sync {}", time(self.sync)));
+            lines.push(format!("sync {}", duration(self.sync)));
         }
         lines
     }
@@ -179,7 +181,7 @@ impl Slave {
             }
         }
         if self.heartbeat > 0 {
-            lines.push(format!("heartbeat {node} {}", time(self.heartbeat)));
+            lines.push(format!("heartbeat {node} {}", duration(self.heartbeat)));
         }
     }
 }
@@ -205,14 +207,6 @@ impl Download {
             0 => format!("{:04X}h", self.address.index),
             _ => format!("{}", self.address),
         }
-    }
-}
-
-/// A time in the form of scripts.
-fn time(micros: u64) -> String {
-    match micros % 1000 {
-        0 => format!("{}ms", micros / 1000),
-        _ => format!("{micros}us"),
     }
 }
 

@@ -173,7 +173,7 @@ fn a_list_is_the_lines_that_make_it() {
         "heartbeat 5 250ms",
         "slave 6",
         "dcf 6 [01 00 00 00 00 20 01 03 00 00 00 61 62 63]",
-        "boot-time 5000ms",
+        "boot-time 5s",
         "sync 20ms",
     ];
     let text: std::string::String = lines
@@ -187,7 +187,7 @@ fn a_list_is_the_lines_that_make_it() {
     let script = Script::parse("master clear 6\nmaster clear 5").expect("lines");
     crate::script::run_on(&script, &mut bench, &mut Bare(od_devices::DEVICES)).expect("lines");
     let left = bench.bus.master().expect("a list").plan().lines();
-    assert_eq!(left, ["boot-time 5000ms", "sync 20ms"]);
+    assert_eq!(left, ["boot-time 5s", "sync 20ms"]);
 }
 
 #[test]

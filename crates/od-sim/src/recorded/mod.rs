@@ -43,6 +43,8 @@ use od_wire::emcy::Emcy;
 
 pub use read::read;
 
+use crate::grammar::duration::duration;
+
 /// Version of the format that this odkit writes and reads.
 pub const VERSION: u32 = 1;
 /// Limit of lines that [`read`] accepts.
@@ -79,29 +81,20 @@ pub struct Recorded {
     pub values: Vec<(u64, Address, Vec<u8>)>,
 }
 
-/// A time in the form of the lines.
-fn time(micros: u64) -> String {
-    match micros {
-        micros if micros % 1_000_000 == 0 => format!("{}s", micros / 1_000_000),
-        micros if micros % 1_000 == 0 => format!("{}ms", micros / 1_000),
-        micros => format!("{micros}us"),
-    }
-}
-
 impl fmt::Display for Recorded {
     /// The lines in the form of an EDS.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, ";odkit-twin={VERSION}")?;
-        writeln!(f, ";twin length {}", time(self.length))?;
-        writeln!(f, ";twin answer {}", time(self.answer))?;
+        writeln!(f, ";twin length {}", duration(self.length))?;
+        writeln!(f, ";twin answer {}", duration(self.answer))?;
         if let Some(boot_up) = self.boot_up {
-            writeln!(f, ";twin boot-up {}", time(boot_up))?;
+            writeln!(f, ";twin boot-up {}", duration(boot_up))?;
         }
         if let Some(period) = self.heartbeat {
-            writeln!(f, ";twin heartbeat {}", time(period))?;
+            writeln!(f, ";twin heartbeat {}", duration(period))?;
         }
         for (number, period) in &self.tpdos {
-            writeln!(f, ";twin tpdo {number} {}", time(*period))?;
+            writeln!(f, ";twin tpdo {number} {}", duration(*period))?;
         }
         for (at, error) in &self.errors {
             let (code, register) = (error.code, error.register);
@@ -109,7 +102,7 @@ impl fmt::Display for Recorded {
             writeln!(
                 f,
                 ";twin emcy {} {code:04X}h {register:02X}h {info}",
-                time(*at)
+                duration(*at)
             )?;
         }
         if self.no_segments || self.no_blocks {
@@ -126,7 +119,7 @@ impl fmt::Display for Recorded {
         }
         for (at, address, bytes) in &self.values {
             let (object, bytes) = (full(*address), values::hex(bytes));
-            writeln!(f, ";twin value {object} {} {bytes}", time(*at))?;
+            writeln!(f, ";twin value {object} {} {bytes}", duration(*at))?;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ use od_model::{Address, Refused, values};
 use od_wire::emcy::Emcy;
 
 use super::{BYTES, LINES, LONGEST, Recorded, VERSION};
+use crate::grammar::duration;
 
 /// The first line, and the start of the other lines.
 const FIRST: &str = ";odkit-twin=";
@@ -132,18 +133,7 @@ fn wrong(given: &str, expected: &str) -> String {
 
 /// `500us`, `20ms`, `10s`, in microseconds.
 fn time(text: &str) -> Result<u64, String> {
-    let unit = text
-        .find(|c: char| !c.is_ascii_digit())
-        .unwrap_or(text.len());
-    let (number, unit) = text.split_at(unit);
-    let scale = match unit {
-        "us" => Some(1),
-        "ms" => Some(1_000),
-        "s" => Some(1_000_000),
-        _ => None,
-    };
-    let micros = scale.and_then(|scale| number.parse::<u64>().ok()?.checked_mul(scale));
-    let valid = micros.filter(|micros| *micros <= LONGEST);
+    let valid = duration::parse(text).filter(|micros| *micros <= LONGEST);
     valid.ok_or_else(|| {
         wrong(
             text,

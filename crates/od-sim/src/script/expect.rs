@@ -8,9 +8,9 @@ use od_runtime::Instant;
 use super::run::{Result, Runner, failed, impossible};
 use crate::bus::{Sent, UNTIL_QUIET};
 use crate::grammar::action::{Expect, Timing};
+use crate::grammar::duration::duration;
 use crate::grammar::fact::Fact;
 use crate::grammar::frames::Frames;
-use crate::grammar::shown::duration;
 
 /// After a failed expectation the script runs for this time to find the frame that comes next.
 const LOOK_AHEAD: u64 = 10_000_000;

@@ -10,7 +10,7 @@ use super::outcome::{Reason, Stop};
 use super::read::Script;
 use crate::grammar::action::{Action, Expect, Timing, When};
 use crate::grammar::deed::Deed;
-use crate::grammar::shown::duration;
+use crate::grammar::duration::duration;
 use crate::words::plural;
 
 /// The limits of a script.

@@ -11,6 +11,7 @@ use super::greeting::node;
 use super::ready::line;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
+use crate::line::bits::occupied;
 use crate::words::plural;
 
 /// Load and frames per second are measured over this time.
@@ -79,8 +80,8 @@ pub(super) struct Stats {
     sent: BTreeMap<usize, Sent>,
     /// The current window and the one before it: frames and bits.
     since: Clock,
-    now: (u64, f64),
-    before: (u64, f64),
+    now: (u64, u64),
+    before: (u64, u64),
 }
 
 impl Stats {
@@ -92,8 +93,8 @@ impl Stats {
             frames: 0,
             sent: BTreeMap::new(),
             since: start,
-            now: (0, 0.0),
-            before: (0, 0.0),
+            now: (0, 0),
+            before: (0, 0),
         }
     }
 
@@ -102,7 +103,7 @@ impl Stats {
         self.roll(Clock::now());
         self.frames += 1;
         self.now.0 += 1;
-        self.now.1 += bits(frame);
+        self.now.1 += occupied(frame);
         let id = frame.id().as_standard().unwrap_or_default();
         if let Some(sent) = from.map(|from| self.sent.entry(from).or_default()) {
             sent.frames += 1;
@@ -126,7 +127,7 @@ impl Stats {
             return;
         }
         let now = std::mem::take(&mut self.now);
-        self.before = if passed < 2 * WINDOW { now } else { (0, 0.0) };
+        self.before = if passed < 2 * WINDOW { now } else { (0, 0) };
         self.since = clock;
     }
 
@@ -206,7 +207,7 @@ impl Stats {
         let rate = rate.map_or(self.bit_rate, |kbit| u32::from(kbit) * 1000);
         let is_first = self.start == self.since;
         let (frames, bits) = if is_first { self.now } else { self.before };
-        (rate, frames, bits / f64::from(rate.max(1)))
+        (rate, frames, bits as f64 / f64::from(rate.max(1)))
     }
 }
 
@@ -225,11 +226,4 @@ fn state(device: &VirtualDevice) -> String {
 
 fn rounded(number: f64, parts: f64) -> f64 {
     (number * parts).round() / parts
-}
-
-/// Bits of a frame on the bus line, with 10 % of stuff bits.
-fn bits(frame: &Frame) -> f64 {
-    let head = if frame.id().is_extended() { 67 } else { 47 };
-    let data = 8 * frame.data().len();
-    f64::from(head + data as u32) * 1.1
 }

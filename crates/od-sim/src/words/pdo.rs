@@ -6,19 +6,16 @@ use std::prelude::v1::*;
 use od_client::pdo::decode;
 use od_model::typed::MapEntry;
 use od_model::{Address, values};
-use od_runtime::{CobId, Frame};
+use od_runtime::Frame;
 
 use super::description::{Service, Words, bytes};
 use super::value::show_mapped;
-use crate::device::VirtualDevice;
-
-/// Limit of PDOs that are searched in a device's dictionary: 512.
-const MOST: u16 = 0x1FF;
+use crate::device::{VirtualDevice, pdos};
 
 /// Describes a frame whose CAN-ID belongs to a PDO of one of the devices.
 pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words> {
-    let (device, service, number, mapping) = find(devices, frame)?;
-    Some(words(device, service, number, mapping, frame))
+    let (device, mapping) = find(devices, frame)?;
+    words(device, mapping, frame)
 }
 
 /// An object in the data of a PDO, its first bit and its number of bits.
@@ -35,67 +32,38 @@ pub(super) fn parts<'d>(
     devices: &'d [VirtualDevice],
     frame: &Frame,
 ) -> Option<(&'d VirtualDevice, Vec<Part>)> {
-    let (device, _, _, index) = find(devices, frame)?;
+    let (device, mapping) = find(devices, frame)?;
     let mut first = 0;
-    let place = |raw| {
-        let MapEntry { address, bits } = MapEntry::parse(raw);
+    let place = |MapEntry { address, bits }| {
         first += u32::from(bits);
         (address, first - u32::from(bits), bits.into())
     };
-    let parts = mapping(device, index).into_iter().map(place);
+    let parts = pdos::entries(device, mapping).into_iter().map(place);
     Some((device, parts.collect()))
 }
 
-/// The current mapping entries of a mapping object.
-fn mapping(device: &VirtualDevice, index: u16) -> Vec<u32> {
-    let count = device.stored(index, 0).unwrap_or(0).min(64) as u8;
-    let entry = |sub| device.stored(index, sub).unwrap_or(0) as u32;
-    (1..=count).map(entry).collect()
+/// The device of a PDO, and its mapping parameter.
+fn find<'d>(devices: &'d [VirtualDevice], frame: &Frame) -> Option<(&'d VirtualDevice, u16)> {
+    devices
+        .iter()
+        .find_map(|device| Some((device, pdos::with_can_id(device, frame.id())?)))
 }
 
-/// The device of a PDO, its direction, its number from 0, and its mapping object.
-fn find<'d>(
-    devices: &'d [VirtualDevice],
-    frame: &Frame,
-) -> Option<(&'d VirtualDevice, Service, u16, u16)> {
-    for device in devices {
-        for (parameter, mapping, service) in [
-            (0x1800, 0x1A00, Service::Tpdo),
-            (0x1400, 0x1600, Service::Rpdo),
-        ] {
-            let last = (parameter..=parameter + MOST)
-                .rev()
-                .find(|index| device.dictionary().object(*index).is_some());
-            for index in parameter..=last.unwrap_or(0) {
-                let cob_id = device.stored(index, 1).map(|raw| CobId::new(raw as u32));
-                if cob_id.is_some_and(|id| id.is_valid() && id.can_id() == frame.id()) {
-                    let number = index - parameter;
-                    return Some((device, service, number, mapping + number));
-                }
-            }
-        }
-    }
-    None
-}
-
-fn words(
-    device: &VirtualDevice,
-    service: Service,
-    number: u16,
-    mapping_object: u16,
-    frame: &Frame,
-) -> Words {
-    let kind = if service == Service::Tpdo {
-        "TPDO"
+fn words(device: &VirtualDevice, mapping: u16, frame: &Frame) -> Option<Words> {
+    let (transmits, number) = pdos::of_mapping(mapping)?;
+    let (service, kind) = if transmits {
+        (Service::Tpdo, "TPDO")
     } else {
-        "RPDO"
+        (Service::Rpdo, "RPDO")
     };
     let node = Some(device.node_id().raw());
-    let number = number + 1;
     if frame.is_remote() {
-        return Words::new(service, node, format!("{kind}{number} requested (RTR)"));
+        let text = format!("{kind}{number} requested (RTR)");
+        return Some(Words::new(service, node, text));
     }
-    let (dictionary, entries) = (device.dictionary(), mapping(device, mapping_object));
+    let dictionary = device.dictionary();
+    let entries = pdos::entries(device, mapping);
+    let entries: Vec<u32> = entries.into_iter().map(MapEntry::raw).collect();
     // Of a PDO that is too short, show the values that it contains.
     let fields = (0..=entries.len())
         .rev()
@@ -121,7 +89,7 @@ fn words(
         let between = if has_words { "; " } else { ", " };
         format!("{kind}{number} {}", parts.join(between))
     };
-    Words::new(service, node, text)
+    Some(Words::new(service, node, text))
 }
 
 /// Describes a frame of an unknown device by the predefined connection set.

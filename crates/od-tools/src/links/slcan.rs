@@ -5,7 +5,7 @@ use od_sim::links::slcan;
 use od_wire::{Duration, Frame};
 
 use super::stamps::Stamp;
-use super::stream::{Protocol, Said, shown};
+use super::stream::{Message, Protocol, shown};
 
 /// Maximum time to wait for the response of an adapter; some never respond.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -65,7 +65,7 @@ impl Protocol for Slcan {
         })
     }
 
-    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String> {
+    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Message>, String> {
         let Some(end) = bytes.iter().position(|byte| matches!(byte, b'\r' | 0x07)) else {
             return Ok(None);
         };
@@ -75,20 +75,20 @@ impl Protocol for Slcan {
             None => return Ok(None),
         };
         Ok(Some(match self.adapter.line(line, is_right) {
-            adapter::Said::Frame(frame) => Said::Frame(frame, self.stamp(line)),
-            adapter::Said::Open => Said::Open,
-            adapter::Said::Nothing => Said::Nothing,
-            adapter::Said::Closed => {
+            adapter::Message::Frame(frame) => Message::Frame(frame, self.stamp(line)),
+            adapter::Message::Open => Message::Open,
+            adapter::Message::Nothing => Message::Nothing,
+            adapter::Message::Closed => {
                 return Err(
                     "the adapter does not open its CAN channel; give it a bit rate, such as with \
                      `--bit-rate 500`"
                         .into(),
                 );
             }
-            adapter::Said::Refused => {
+            adapter::Message::Refused => {
                 return Err("the adapter refuses a frame; it may be bus-off".into());
             }
-            adapter::Said::Noise(line) => {
+            adapter::Message::Noise(line) => {
                 let line = shown(&line);
                 return Err(format!(
                     "unexpected line `{line}`; is an slcan adapter there, at this baud rate?"

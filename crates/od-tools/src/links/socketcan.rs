@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind, Write};
 use std::time;
 
 use od_sim::links::can_frame;
+use od_sim::serve::links::is_up;
 use od_wire::{CanId, Duration, Frame, Instant};
 use socketcan::{CanFrame, CanSocket, EmbeddedFrame, Socket, SocketOptions};
 
@@ -43,7 +44,7 @@ impl Interface {
             name: name.to_owned(),
             start: time::Instant::now(),
         };
-        match can_frame::is_up(name) {
+        match is_up(name) {
             Some(false) => Err(interface.lost(&io::Error::from_raw_os_error(ENETDOWN))),
             _ => Ok(interface),
         }

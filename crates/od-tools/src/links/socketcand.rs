@@ -4,7 +4,7 @@ use od_sim::logs::candump::parse_frame;
 use od_wire::Frame;
 
 use super::stamps::Stamp;
-use super::stream::{Protocol, Said, shown};
+use super::stream::{Message, Protocol, shown};
 
 /// State of the conversation with the daemon.
 pub(super) struct Socketcand {
@@ -30,20 +30,22 @@ impl Socketcand {
     }
 
     /// One command of the daemon, without its brackets.
-    fn said(&mut self, text: &str) -> Result<Said, String> {
+    fn message(&mut self, text: &str) -> Result<Message, String> {
         let mut words = text.split_ascii_whitespace();
         match (words.next().unwrap_or_default(), self.step) {
             ("hi", Step::Greeting) => {
                 self.step = Step::Opening;
-                Ok(Said::Reply(format!("< open {} >", self.bus).into_bytes()))
+                Ok(Message::Reply(
+                    format!("< open {} >", self.bus).into_bytes(),
+                ))
             }
             ("ok", Step::Opening) => {
                 self.step = Step::RawMode;
-                Ok(Said::Reply(b"< rawmode >".to_vec()))
+                Ok(Message::Reply(b"< rawmode >".to_vec()))
             }
             ("ok", Step::RawMode) => {
                 self.step = Step::Open;
-                Ok(Said::Open)
+                Ok(Message::Open)
             }
             (kind @ ("frame" | "rtr"), _) => {
                 let id = words.next().unwrap_or_default();
@@ -54,20 +56,20 @@ impl Socketcand {
                     _ => data,
                 };
                 let frame = parse_frame(&format!("{id}#{data}"));
-                let said = frame.map(|frame| Said::Frame(frame, stamp));
-                said.map_err(|_| unexpected(text))
+                let message = frame.map(|frame| Message::Frame(frame, stamp));
+                message.map_err(|_| unexpected(text))
             }
             // With a number it is an error frame of the bus.
             ("error", _) => match words.next() {
                 Some(class) if class.bytes().all(|byte| byte.is_ascii_hexdigit()) => {
-                    Ok(Said::Nothing)
+                    Ok(Message::Nothing)
                 }
                 _ => Err(format!(
                     "the server answers `{text}` for bus `{}`",
                     self.bus
                 )),
             },
-            ("ok" | "echo" | "hi", _) => Ok(Said::Nothing),
+            ("ok" | "echo" | "hi", _) => Ok(Message::Nothing),
             _ => Err(unexpected(text)),
         }
     }
@@ -101,7 +103,7 @@ impl Protocol for Socketcand {
         }
     }
 
-    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String> {
+    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Message>, String> {
         let Some(end) = bytes.iter().position(|byte| *byte == b'>') else {
             return Ok(None);
         };
@@ -112,7 +114,7 @@ impl Protocol for Socketcand {
             None => (text.as_str(), ""),
         };
         match before {
-            "" => self.said(text.trim()).map(Some),
+            "" => self.message(text.trim()).map(Some),
             garbage => Err(unexpected(garbage)),
         }
     }

@@ -34,7 +34,7 @@ pub(super) trait Port {
 }
 
 /// A message of the server.
-pub(super) enum Said {
+pub(super) enum Message {
     /// A frame of the bus, and when the server received it if it says so.
     Frame(Frame, Option<Stamp>),
     /// The server expects these bytes.
@@ -54,7 +54,7 @@ pub(super) trait Protocol {
     ///
     /// # Errors
     /// Reason why the message cannot be read.
-    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String>;
+    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Message>, String>;
 
     /// Adds the bytes that send a frame.
     fn write(&self, frame: &Frame, out: &mut Vec<u8>);
@@ -114,8 +114,8 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         let until = self.now() + patience;
         loop {
             match self.hear(until)? {
-                Some(Said::Open) => return Ok(()),
-                Some(Said::Frame(frame, stamp)) => {
+                Some(Message::Open) => return Ok(()),
+                Some(Message::Frame(frame, stamp)) => {
                     let heard = self.heard(frame, stamp);
                     self.early.push_back(heard);
                 }
@@ -131,11 +131,11 @@ impl<P: Port, S: Protocol> Stream<P, S> {
     }
 
     /// The next message; `None` if none arrives in time.
-    fn hear(&mut self, until: Instant) -> Result<Option<Said>, Error> {
+    fn hear(&mut self, until: Instant) -> Result<Option<Message>, Error> {
         loop {
             match self.protocol.take(&mut self.rest) {
-                Ok(Some(Said::Reply(bytes))) => self.write(&bytes)?,
-                Ok(Some(said)) => return Ok(Some(said)),
+                Ok(Some(Message::Reply(bytes))) => self.write(&bytes)?,
+                Ok(Some(message)) => return Ok(Some(message)),
                 Ok(None) if self.rest.len() > LONGEST => {
                     let shown = shown(&self.rest[..40]);
                     return Err(self.lost(&format!("unexpected bytes `{shown}` …")));
@@ -254,7 +254,7 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
         }
         loop {
             match self.hear(until)? {
-                Some(Said::Frame(frame, stamp)) => return Ok(Some(self.heard(frame, stamp))),
+                Some(Message::Frame(frame, stamp)) => return Ok(Some(self.heard(frame, stamp))),
                 Some(_) => {}
                 None => return Ok(None),
             }

@@ -56,17 +56,17 @@ class Master extends Lab {
   private chart(slave: MasterSlave) {
     const t = L.master;
     const start = slave.began[0] ?? 0;
-    const isOpen = slave.standing === 'waiting';
+    const isOpen = slave.state === 'waiting';
     const state = (i: number): string => {
       if (isOpen || i > slave.stage) return 'open';
-      if (i === slave.stage && slave.standing === 'failed') return 'failed';
-      if (i === slave.stage && slave.standing === 'booting') return 'now';
+      if (i === slave.stage && slave.state === 'failed') return 'failed';
+      if (i === slave.stage && slave.state === 'booting') return 'now';
       if (i === BOOT_UP && slave.silent) return 'missed';
       const check = CHECKS[i];
       return check !== undefined && i !== 3 && !slave.checks[check] ? 'skipped' : 'done';
     };
     return html`<section class="slave">
-      <h4>${t.node(slave.node)} <span class="pill" data-tone=${slave.standing === 'started' ? 'good' : slave.standing === 'failed' || slave.standing === 'lost' ? 'bad' : ''}>${t.standing[slave.standing]}</span></h4>
+      <h4>${t.node(slave.node)} <span class="pill" data-tone=${slave.state === 'started' ? 'good' : slave.state === 'failed' || slave.state === 'lost' ? 'bad' : ''}>${t.state[slave.state]}</span></h4>
       <ol class="stages" aria-label=${t.chart(slave.node)}>${t.stages.map((name, i) => {
         const is = state(i);
         const at = slave.began[i];

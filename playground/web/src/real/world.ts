@@ -1,7 +1,7 @@
 // A real bus in the worker: a bench in real time that is connected to a link. Frames of the link are
 // received by the bench, and frames of the page are sent.
 
-import type { Added, Command, Input } from '../sim/api';
+import type { Applied, Command, Input } from '../sim/api';
 import type { Adapter } from '../wasm/od_playground';
 import { World, type Module } from '../sim/world';
 import type { RealReport, RealState, Target, Why } from './api';
@@ -163,7 +163,7 @@ export class Real extends World {
     for (const byte of lines) if (byte === 13) this.unsent += 1;
   }
 
-  override async act(input: Input): Promise<Added> {
+  override async act(input: Input): Promise<Applied> {
     this.pass();
     const added = await super.act(input);
     this.flush();
@@ -176,7 +176,7 @@ export class Real extends World {
     this.flush();
   }
 
-  describe(input: Input): Added {
+  describe(input: Input): Applied {
     return this.bus.addDescription(input);
   }
 

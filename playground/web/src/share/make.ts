@@ -3,7 +3,7 @@
 import { effect } from '@preact/signals-core';
 import { setRunning, setSpeed } from '../actions';
 import { loaded } from '../codec';
-import { restore, select, still } from '../sim/link';
+import { restore, select, setup } from '../sim/link';
 import * as state from '../state';
 import { D } from '../views/texts';
 import { NoBench, read, write, type Bench } from './bench';
@@ -23,7 +23,7 @@ export async function now(trace: boolean): Promise<Bench> {
     entries: [...state.journal.entries],
   };
   if (trace) return bench;
-  const entries = await still();
+  const entries = await setup();
   return entries ? { ...bench, now: 0, entries } : { ...bench, trace: true };
 }
 

@@ -4,7 +4,7 @@
 import type { RealCommand, RealReport, RealState } from '../real/api';
 import type { Builtin, Bus, caseRow, Chain, dbcWords, decodeEds, DeviceInfo, diagnose, Entry, faultCases, foreignFile, Input, JournalNews, judgeAnswer, judgeCase, Lesson, LessonState, LineStatus, openCase, parseLesson, plainEds, readDbc, readLog, Status, tryProbe, Value, writeLog } from '../wasm/od_playground';
 
-export type { Added, Builtin, CableState, CaseMark, Chain, DeviceInfo, Diagnostic, Entry, FaultCase, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, OpenedCase, Outcome, Pdo, Pin, ProbeReading, Source, Status, Transfer, Value } from '../wasm/od_playground';
+export type { Applied, Builtin, CableState, CaseMark, Chain, DeviceInfo, Diagnostic, Entry, FaultCase, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, OpenedCase, Outcome, Pdo, Pin, ProbeReading, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface Address {
   index: number;
@@ -38,7 +38,7 @@ export type Command =
   | { op: 'do'; input: Input; ticket?: number }
   /** `quiet`: frames of the first moment are not shown; `waits`: later commands wait until it is done. */
   | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean; waits?: boolean }
-  | { op: 'still'; ticket: number }
+  | { op: 'setup'; ticket: number }
   | { op: 'dcf'; ticket: number; node: number }
   | { op: 'run'; running: boolean }
   | { op: 'speed'; factor: number }

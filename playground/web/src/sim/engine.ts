@@ -198,8 +198,8 @@ export class Engine {
           if (!this.running) this.sendOut();
         }
         break;
-      case 'still':
-        this.answer(command.ticket, this.home.bus.still());
+      case 'setup':
+        this.answer(command.ticket, this.home.bus.setup());
         return;
       case 'dcf':
         this.isBusy = true;

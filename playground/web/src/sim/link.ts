@@ -7,7 +7,7 @@ import * as state from '../state';
 import { T } from '../texts';
 import { begin } from '../codec';
 import type { RealReport } from '../real/api';
-import type { Added, Address, Command, DeviceInfo, Entry, Input, Lesson, Questions, Report, Snapshot, Tools } from './api';
+import type { Applied, Address, Command, DeviceInfo, Entry, Input, Lesson, Questions, Report, Snapshot, Tools } from './api';
 import { showLive } from '../seeing/shelf';
 import { Ring } from '../trace/ring';
 import { trusted } from '../trusted';
@@ -82,14 +82,14 @@ export function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise
 }
 
 /** Adds a device, starts a lesson, plays a script; if that fails, the bench stays as it is. */
-export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added & { entry?: number }> =>
+export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Applied & { entry?: number }> =>
   ask((ticket) => ({ op: 'do', input, ticket }), { node: null, diagnostics: [] });
 
 /** Goes back to the moment before a journal entry, and removes the later entries. */
 export const takeBack = (entry: number): Promise<null> => ask((ticket) => ({ op: 'back', to: null, entry, ticket }), null);
 
 /** Adds the description of a real node to the devices. */
-export const describe = (input: Input): Promise<Added & { entry?: number }> => ask((ticket) => ({ op: 'real', what: { is: 'describe', ticket, input } }), { node: null, diagnostics: [] });
+export const describe = (input: Input): Promise<Applied & { entry?: number }> => ask((ticket) => ({ op: 'real', what: { is: 'describe', ticket, input } }), { node: null, diagnostics: [] });
 
 /** Repeats a run from the start; a quiet one does not show the frames of its first moment. */
 export function restore(entries: Entry[], until: number, quiet = false, waits = false): void {
@@ -99,7 +99,7 @@ export function restore(entries: Entry[], until: number, quiet = false, waits = 
 }
 
 /** The inputs that make this bench without its history; null if there are none. */
-export const still = (): Promise<Entry[] | null> => ask((ticket) => ({ op: 'still', ticket }), null);
+export const setup = (): Promise<Entry[] | null> => ask((ticket) => ({ op: 'setup', ticket }), null);
 
 /** A DCF of a device with its current configuration. */
 export const exportDcf = (node: number): Promise<string | null> => ask((ticket) => ({ op: 'dcf', ticket, node }), null);

@@ -8,7 +8,7 @@ import { T } from '../texts';
 import type { Address, ObjectRecord, Outcome } from './api';
 import { ask, hooks, maySend } from './link';
 
-export type Said = { tone: '' | 'error' | 'good'; text: string };
+export type Message = { tone: '' | 'error' | 'good'; text: string };
 
 /** No node responded. */
 const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsPdoOff: false };
@@ -20,7 +20,7 @@ export const transfer = ({ index, sub }: Address, bytes: Uint8Array | null): Pro
 /** Reason why no value was read. */
 export const failure = ({ words }: Outcome): string => said(words) || (powered.value ? T.sdo.stopped : T.sdo.off);
 
-export function inWords(object: ObjectRecord, isWrite: boolean, outcome: Outcome): Said {
+export function inWords(object: ObjectRecord, isWrite: boolean, outcome: Outcome): Message {
   const where = address(object.index, object.sub);
   if (outcome.bytes === null) return { tone: 'error', text: failure(outcome) };
   if (isWrite) return { tone: 'good', text: T.sdo.written(where) };

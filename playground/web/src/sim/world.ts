@@ -1,7 +1,7 @@
 // The simulated bench. It starts in the small module, and continues in the whole one if that
 // is needed: its journal is repeated there.
 
-import type { Added, Builtin, Command, Entry, Input, Lesson, LessonState, Outcome, Tools } from './api';
+import type { Applied, Builtin, Command, Entry, Input, Lesson, LessonState, Outcome, Tools } from './api';
 import type { Adapter, Bus as Simulation } from '../wasm/od_playground';
 
 /** One of the two WebAssembly modules; the small one lacks EDS texts and lessons. */
@@ -62,7 +62,7 @@ export class World {
   }
 
   /** Sends an input to the bench. */
-  async act(input: Input): Promise<Added & { entry?: number }> {
+  async act(input: Input): Promise<Applied & { entry?: number }> {
     if (this.needsWhole(input)) await this.enlarge();
     const { bus } = this;
     if (input.op === 'add') {

@@ -30,7 +30,7 @@ export const labs = {
     node: (node: number) => `Node ${node}`,
     stages: ['In the list', 'Reset', 'Boot-up', 'Device type', 'Identity', 'Configuration', 'Error control', 'Start'],
     objects: ['1F81h', 'NMT', '1F89h', '1F84h', '1F85h–1F88h', '1F22h', '1016h', 'NMT'],
-    standing: { waiting: 'waits', booting: 'is booted', started: 'started', failed: 'failed', lost: 'lost' } as Record<string, string>,
+    state: { waiting: 'waits', booting: 'is booted', started: 'started', failed: 'failed', lost: 'lost' } as Record<string, string>,
     state: { done: 'done', now: 'in progress', failed: 'stopped here', skipped: 'nothing to do', missed: 'did not come', open: 'not reached' } as Record<string, string>,
     status: (letter: string, meaning: string) => `Error status ${letter}: ${meaning}`,
     after: (millis: number) => `+${millis < 10 ? millis.toFixed(1) : Math.round(millis)} ms`,

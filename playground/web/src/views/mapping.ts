@@ -17,7 +17,7 @@ import { View } from './view';
 
 await sheet('dialogs');
 
-type Said = { tone: 'good' | 'error' | 'busy'; text: string };
+type Message = { tone: 'good' | 'error' | 'busy'; text: string };
 
 /** Maximum number of bits in a PDO. */
 const MOST_BITS = 64;
@@ -33,7 +33,7 @@ class Mapping extends View {
   /** The PDO is disabled during the change. */
   declare isOff: boolean;
   declare steps: MappingStep[];
-  declare said: Said[];
+  declare said: Message[];
   declare isBusy: boolean;
   declare hint: string;
   private unopen: (() => void) | undefined;

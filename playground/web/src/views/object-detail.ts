@@ -7,7 +7,7 @@ import { setFilter } from '../capture';
 import { encode, range } from '../codec';
 import { address, otherSpelling, showValue } from '../format';
 import { askBus } from '../sim/link';
-import { inWords, transfer, type Said } from '../sim/sdo';
+import { inWords, transfer, type Message } from '../sim/sdo';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -19,7 +19,7 @@ export const openMapping = (index: number): void => void import('./mapping').the
 class ObjectDetail extends View {
   static override properties = { typed: { state: true }, said: { state: true }, isBusy: { state: true } };
   declare typed: string;
-  declare said: Said | null;
+  declare said: Message | null;
   declare isBusy: boolean;
   private unselect: (() => void) | undefined;
 

@@ -5,7 +5,7 @@ import { effect } from '@preact/signals-core';
 import type { ObjectRecord } from '../sim/api';
 import { encode } from '../codec';
 import { address, showValue } from '../format';
-import { inWords, transfer, type Said } from '../sim/sdo';
+import { inWords, transfer, type Message } from '../sim/sdo';
 import * as state from '../state';
 import { T } from '../texts';
 import { findObjects, parseAddress, standIn } from './object-search';
@@ -17,7 +17,7 @@ class SdoForm extends View {
   static override properties = { text: { state: true }, typed: { state: true }, result: { state: true }, offered: { state: true }, active: { state: true }, isBusy: { state: true } };
   declare text: string;
   declare typed: string;
-  declare result: Said | null;
+  declare result: Message | null;
   declare offered: ObjectRecord[];
   declare active: number;
   declare isBusy: boolean;

@@ -139,7 +139,7 @@ fn a_lone_node_repeats_without_end_and_is_error_passive() {
     let lost: Vec<_> = core::iter::from_fn(|| bus.line.poll()).collect();
     assert!(
         lost.iter()
-            .all(|one| one.trouble == FrameError::NoAcknowledge && !one.bus_off)
+            .all(|one| one.error == FrameError::NoAcknowledge && !one.bus_off)
     );
     // Each attempt until error passive is reported, then one per second.
     let counters: Vec<_> = lost.iter().map(|one| one.transmit_errors).collect();
@@ -216,7 +216,7 @@ fn two_nodes_with_one_node_id_send_one_frame_or_destroy_each_other() {
         3,
         "both responses, one after the other: {came:?}"
     );
-    assert!(lost.iter().all(|one| one.trouble == FrameError::SameId));
+    assert!(lost.iter().all(|one| one.error == FrameError::SameId));
     let of = |device| lost.iter().filter(|one| one.device == Some(device)).count();
     // 16 attempts of both, until one of them is error passive and cannot stop the other.
     assert_eq!((of(0).min(of(1)), of(0).max(of(1))), (16, 17), "{lost:?}");

@@ -4,8 +4,8 @@
 //! and why the line cannot be read. Lines before it that begin with `| ` belong to it.
 
 pub(super) mod address;
+mod effect;
 pub(super) mod open;
-mod said;
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -44,8 +44,8 @@ struct Session {
     /// The device that its lines are about.
     current: usize,
     queue: VecDeque<Entry>,
-    /// Answer to the line that is in progress.
-    said: Option<String>,
+    /// The effect of the line that is in progress, in words.
+    effect: Option<String>,
     /// The frame of this line that a real line has not sent, and the time until which its answer waits for it.
     sending: Option<(Frame, Instant)>,
     /// A frame of this line for which the queue had no room.
@@ -126,7 +126,7 @@ impl Session {
             console: Console::default(),
             current: 0,
             queue: VecDeque::new(),
-            said: None,
+            effect: None,
             sending: None,
             lost: None,
             has_left: false,
@@ -184,10 +184,10 @@ impl Session {
         let deed = self.console.front().cloned();
         std::mem::swap(&mut bench.current, &mut self.current);
         let result = self.console.step(bench);
-        let said = deed.map(|deed| said::said(&deed, bench));
+        let effect = deed.map(|deed| effect::effect(&deed, bench));
         std::mem::swap(&mut bench.current, &mut self.current);
         let result = result?;
-        self.said = said.or(self.said.take());
+        self.effect = effect.or(self.effect.take());
         let is_last = result.is_err() || !self.console.goes_on();
         Some(match result {
             Ok(Some(frame)) => {
@@ -209,13 +209,13 @@ impl Session {
 
     /// Answers the line in progress.
     fn answer(&mut self, result: Result<(), Refused>) {
-        let said = self.said.take().unwrap_or_default();
+        let effect = self.effect.take().unwrap_or_default();
         let result = match self.lost.take() {
             Some(frame) => result.and(Err(lost(&frame).into())),
             None => result,
         };
         let answer = match result {
-            Ok(()) => format!("ok {said}"),
+            Ok(()) => format!("ok {effect}"),
             Err(why) => format!("failed {why}"),
         };
         if let Some(entry) = self.queue.front_mut() {

@@ -13,7 +13,7 @@ use nix::sys::socket::{ControlMessageOwned, MsgFlags, recvmsg, setsockopt, socko
 use socketcan::{CanSocket, Socket};
 
 use super::port::{BOTH, Port};
-use crate::links::can_frame::{SIZE, is_up};
+use crate::links::can_frame::SIZE;
 use crate::serve::terminal::note;
 use crate::words::plural;
 
@@ -25,6 +25,15 @@ const FULL: Duration = Duration::from_millis(1);
 const DOWN: Duration = Duration::from_millis(250);
 /// Shortest time between two reports of dropped frames.
 const DROPS: Duration = Duration::from_secs(1);
+
+/// Returns whether a CAN interface of Linux is up; `None` if the system does not say. An interface that comes up
+/// later works, too.
+pub fn is_up(interface: &str) -> Option<bool> {
+    const IFF_UP: u32 = 1;
+    let flags = std::fs::read_to_string(format!("/sys/class/net/{interface}/flags")).ok()?;
+    let flags = u32::from_str_radix(flags.trim().strip_prefix("0x")?, 16).ok()?;
+    Some(flags & IFF_UP != 0)
+}
 
 /// A CAN interface.
 pub(super) struct Interface {

@@ -13,6 +13,9 @@ mod terminal;
 mod threads;
 pub(super) mod web_socket;
 
+#[cfg(target_os = "linux")]
+pub use interface::is_up;
+
 use super::error::Error;
 use crate::links::address::Address;
 use od_model::Refused;

@@ -32,7 +32,7 @@ export const labs = {
     node: (node) => `Knoten ${node}`,
     stages: ['In der Liste', 'Reset', 'Boot-up', 'Gerätetyp', 'Identität', 'Konfiguration', 'Überwachung', 'Start'],
     objects: ['1F81h', 'NMT', '1F89h', '1F84h', '1F85h–1F88h', '1F22h', '1016h', 'NMT'],
-    standing: { waiting: 'wartet', booting: 'wird gebootet', started: 'gestartet', failed: 'gescheitert', lost: 'verloren' } as Record<string, string>,
+    state: { waiting: 'wartet', booting: 'wird gebootet', started: 'gestartet', failed: 'gescheitert', lost: 'verloren' } as Record<string, string>,
     state: { done: 'erledigt', now: 'läuft', failed: 'hier angehalten', skipped: 'nichts zu tun', missed: 'kam nicht', open: 'nicht erreicht' } as Record<string, string>,
     status: (letter, meaning) => `Fehlerstatus ${letter}: ${meaning}`,
     after: (millis) => `+${millis < 10 ? millis.toFixed(1) : Math.round(millis)} ms`,

@@ -7,11 +7,11 @@ use od_wire::nmt::State;
 use crate::bench::Bench;
 use crate::device::VirtualDevice;
 use crate::grammar::deed::{Deed, LineChange, ShaftChange};
-use crate::grammar::shown::duration;
+use crate::grammar::duration::duration;
 use crate::words::{emcy_text, value_text};
 
 /// The effect of an action, on the bench as it is now.
-pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
+pub(super) fn effect(deed: &Deed, bench: &Bench) -> String {
     let Ok(device) = bench.present() else {
         return String::from("done");
     };
@@ -20,7 +20,7 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
     } else {
         format!("device {}", bench.current + 1)
     };
-    let said = match deed {
+    let effect = match deed {
         Deed::Wait => return String::from("waited"),
         Deed::Use(_) => return format!("the next lines are about {name} ({})", device.title()),
         Deed::Send { frame, times, .. } => {
@@ -76,7 +76,7 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
             _ => "CAN controller lost a frame",
         }),
     };
-    format!("{name}: {said}")
+    format!("{name}: {effect}")
 }
 
 fn value(device: &VirtualDevice, address: od_model::Address, bytes: &[u8]) -> String {

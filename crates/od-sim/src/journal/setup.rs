@@ -29,7 +29,7 @@ struct Station {
 impl Journal {
     /// Returns the inputs that make this bench from an empty one; `None` if adding the devices
     /// one after the other cannot give their order.
-    pub fn still(&mut self) -> Option<Vec<Entry>> {
+    pub fn setup(&mut self) -> Option<Vec<Entry>> {
         if !self.is_regular() {
             return None;
         }
@@ -131,7 +131,7 @@ impl Journal {
     /// The list of the master with the nodes that it has started, and the physics of the line, as lines of a script; `None` if both are those of an empty bench.
     #[cfg(feature = "training")]
     fn training(&self) -> Option<Input> {
-        use crate::master::{Boot, Standing};
+        use crate::master::{Boot, BootState};
 
         let bus = &self.rig.bus;
         let devices = bus.devices().len();
@@ -161,7 +161,7 @@ impl Journal {
         if let Some(master) = bus.master() {
             let plan = master.plan().lines();
             lines.extend(plan.iter().map(|line| std::format!("master {line}")));
-            let is_started = |one: &&Boot| one.standing == Standing::Started;
+            let is_started = |one: &&Boot| one.state == BootState::Started;
             let started = master.boots().iter().filter(is_started);
             lines.extend(started.map(|one| std::format!("master started {}", one.node)));
         }
