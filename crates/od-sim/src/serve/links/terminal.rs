@@ -67,7 +67,8 @@ impl Terminal {
         // An slcand that was killed leaves the line discipline of the kernel and its network interface
         // in place, and no write works there. Only a new terminal removes both.
         let is_usable = other.and_then(|mut other| {
-            tcflush(&other, FlushArg::TCIOFLUSH)?;
+            // The bytes to the previous host. Those from the next one, which may be there already, stay.
+            tcflush(&other, FlushArg::TCIFLUSH)?;
             other.write(b"")
         });
         match is_usable {
