@@ -5,7 +5,7 @@ use std::iter;
 use od_model::Address;
 use od_model::typed::Scalar;
 use od_runtime::encoder;
-use od_sim::line::Condition;
+use od_sim::line::ErrorState;
 use od_sim::notice::of_storage;
 use od_sim::{Led, VirtualDevice};
 use od_wire::nmt::State;
@@ -30,7 +30,7 @@ words! {
 names! {
     Lamp: Led { Off, Flashing, On, }
     /// Error state of a CAN controller.
-    Controller: Condition { ErrorActive, ErrorPassive, BusOff, }
+    Controller: ErrorState { ErrorActive, ErrorPassive, BusOff, }
 }
 
 record! {
@@ -74,7 +74,7 @@ record! {
         faults: Made<Vec<&'static str>>,
         "transmitErrors" transmit_errors: u16,
         "receiveErrors" receive_errors: u16,
-        controller: Condition,
+        controller: ErrorState,
         /// Whether it is connected to the line.
         plugged: bool,
         /// The shaft follows a profile.
@@ -93,7 +93,7 @@ record! {
         rate: Option<u16>,
         "transmitErrors" transmit_errors: u16,
         "receiveErrors" receive_errors: u16,
-        controller: Condition,
+        controller: ErrorState,
         plugged: bool,
     }
 }
@@ -213,7 +213,7 @@ impl Bus {
             faults: Made::list(broken.copied()),
             transmit_errors: controller.transmit,
             receive_errors: controller.receive,
-            controller: controller.condition(),
+            controller: controller.error_state(),
             plugged: self.journal.rig.bus.line.is_plugged(device + 1),
             moves: self.journal.rig.moves(device),
             real: is_described(one),
@@ -269,7 +269,7 @@ impl Bus {
             rate,
             transmit_errors: outside.transmit,
             receive_errors: outside.receive,
-            controller: outside.condition(),
+            controller: outside.error_state(),
             plugged: line.is_plugged(0),
         };
         status.value()

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use od_sim::line::Condition;
+use od_sim::line::ErrorState;
 use od_sim::logs::What;
 use od_wire::Frame;
 use pyo3::prelude::*;
@@ -239,9 +239,9 @@ impl Port {
     /// State of the CAN controller of the programs: 0 error active, 1 error passive, 2 bus-off.
     fn condition(&self) -> PyResult<u8> {
         Ok(
-            match self.wire()?.lock().bus.line.controller(0).condition() {
-                Condition::BusOff => 2,
-                Condition::ErrorPassive => 1,
+            match self.wire()?.lock().bus.line.controller(0).error_state() {
+                ErrorState::BusOff => 2,
+                ErrorState::ErrorPassive => 1,
                 _ => 0,
             },
         )

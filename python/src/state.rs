@@ -5,7 +5,7 @@ use std::thread::{self, Thread, ThreadId};
 use std::time::{Duration, Instant as Clock};
 
 use od_sim::bus::Bus;
-use od_sim::line::Condition;
+use od_sim::line::ErrorState;
 use od_sim::logs::{BusError, What};
 use od_wire::{Frame, Instant};
 
@@ -214,7 +214,7 @@ impl State {
     /// # Errors
     /// The CAN controller of the programs is bus-off.
     pub(crate) fn transmit(&mut self, port: u32, frame: &Frame) -> Result<(), Fault> {
-        if self.bus.line.controller(0).condition() == Condition::BusOff {
+        if self.bus.line.controller(0).error_state() == ErrorState::BusOff {
             return Err(Fault::system(
                 "the CAN controller of the programs is bus-off; restart it with `bench.restart()`",
             ));

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::{Bus, Sent};
-use crate::line::{Condition, Disturbance, Due, Ended, FrameError, PROCESSING, Waiting};
+use crate::line::{Disturbance, Due, Ended, ErrorState, FrameError, PROCESSING, Waiting};
 
 /// Bits of an extended frame with eight bytes, with the greatest number of stuff bits and the three
 /// bits after it.
@@ -67,8 +67,8 @@ impl Bus {
             }
             return Ok(false);
         }
-        match self.line.controller(0).condition() {
-            Condition::BusOff => Err(format!(
+        match self.line.controller(0).error_state() {
+            ErrorState::BusOff => Err(format!(
                 "{frame} is lost: the CAN controller of the clients is bus-off after too many errors; remove their \
                  cause, then write `line restart`"
             )),
@@ -102,7 +102,7 @@ impl Bus {
         // A controller that is bus-off sends nothing, and its frames are lost.
         starters.retain(|one| {
             stations.get(one.station).is_some_and(|it| it.present)
-                && self.line.controller(one.station).condition() != Condition::BusOff
+                && self.line.controller(one.station).error_state() != ErrorState::BusOff
         });
         // A station with another bit rate does not compare its bits with those of the others.
         let rate = |one: &Waiting| stations[one.station].rate;
@@ -158,10 +158,10 @@ impl Bus {
         for (mut waiting, error) in failed.chain(beaten) {
             let controller = self.line.controller(waiting.station);
             waiting.failed(error, controller.transmit);
-            let condition = controller.condition();
+            let state = controller.error_state();
             self.report(&mut waiting, error);
-            if condition != Condition::BusOff {
-                let is_passive = condition == Condition::ErrorPassive;
+            if state != ErrorState::BusOff {
+                let is_passive = state == ErrorState::ErrorPassive;
                 self.line.medium.again(waiting, is_passive);
             } else if let Some(device) = waiting.station.checked_sub(1) {
                 self.load(device, self.now);
@@ -224,7 +224,7 @@ impl Bus {
             error,
             attempts: waiting.attempts,
             transmit_errors: controller.transmit,
-            bus_off: controller.condition() == Condition::BusOff,
+            bus_off: controller.error_state() == ErrorState::BusOff,
         });
     }
 }

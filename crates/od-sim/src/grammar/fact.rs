@@ -15,7 +15,7 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::device::leds::Led;
 use crate::device::world::ShaftView;
-use crate::line::Condition;
+use crate::line::ErrorState;
 use crate::line::cable::Measure;
 
 /// A condition about a device or the bus line.
@@ -56,7 +56,7 @@ pub enum Fact {
         comparison: Comparison,
     },
     /// Error state of the CAN controller on a real line.
-    Controller(Condition),
+    Controller(ErrorState),
     /// A value of the cable, or of the device's clock.
     Cable(Measure, Comparison),
     /// The state of a node, as the master on the bench sees it.
@@ -114,9 +114,9 @@ impl Fact {
             "controller" => Self::Controller(tokens.one_of(
                 "error state",
                 &[
-                    ("error-active", Condition::ErrorActive),
-                    ("error-passive", Condition::ErrorPassive),
-                    ("bus-off", Condition::BusOff),
+                    ("error-active", ErrorState::ErrorActive),
+                    ("error-passive", ErrorState::ErrorPassive),
+                    ("bus-off", ErrorState::BusOff),
                 ],
             )?),
             "line-length" => Self::Cable(Measure::Length, Comparison::number(tokens)?),
@@ -221,7 +221,7 @@ impl Fact {
                 numbers(counter, comparison)
             }
             Self::Controller(wanted) => {
-                let is = bus.line.controller(device + 1).condition();
+                let is = bus.line.controller(device + 1).error_state();
                 evaluation(is == *wanted, is.name())
             }
             _ => self.outside(bus.devices().get(device).ok_or_else(gone)?, now, turns),

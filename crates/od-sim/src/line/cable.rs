@@ -126,7 +126,7 @@ impl Cable {
         self.sample_time(kbit).saturating_sub(delay) / (2 * PER_METRE)
     }
 
-    /// Time from the end of a dominant bit until the line is recessive, in nanoseconds: the capacity of the line discharges
+    /// Time from the end of a dominant bit until the line is recessive, in nanoseconds: the capacitance of the line discharges
     /// through terminators and stations (thresholds of ISO 11898-2).
     pub fn settling(&self, terminators: u8, stations: usize) -> u64 {
         let stations = stations.max(1) as u64;

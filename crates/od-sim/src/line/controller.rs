@@ -13,7 +13,7 @@ const RECOVERY: u64 = 128 * 11;
 
 /// Error state of a controller.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Condition {
+pub enum ErrorState {
     /// It takes part without restrictions.
     ErrorActive,
     /// It no longer destroys the frames of others.
@@ -22,7 +22,7 @@ pub enum Condition {
     BusOff,
 }
 
-impl Condition {
+impl ErrorState {
     /// `error active`, `error passive`, `bus-off`.
     pub const fn name(self) -> &'static str {
         match self {
@@ -46,25 +46,25 @@ pub struct Controller {
 
 impl Controller {
     /// Error state.
-    pub const fn condition(self) -> Condition {
+    pub const fn error_state(self) -> ErrorState {
         if self.transmit >= BUS_OFF {
-            Condition::BusOff
+            ErrorState::BusOff
         } else if self.transmit >= PASSIVE || self.receive >= PASSIVE {
-            Condition::ErrorPassive
+            ErrorState::ErrorPassive
         } else {
-            Condition::ErrorActive
+            ErrorState::ErrorActive
         }
     }
 
     /// Event for its device when the state changes to the present one.
     pub(crate) const fn event(self) -> BusEvent {
-        match self.condition() {
-            Condition::BusOff => BusEvent::Off,
-            Condition::ErrorPassive => BusEvent::Passive,
-            Condition::ErrorActive if self.transmit >= WARNING || self.receive >= WARNING => {
+        match self.error_state() {
+            ErrorState::BusOff => BusEvent::Off,
+            ErrorState::ErrorPassive => BusEvent::Passive,
+            ErrorState::ErrorActive if self.transmit >= WARNING || self.receive >= WARNING => {
                 BusEvent::Warning
             }
-            Condition::ErrorActive => BusEvent::Active,
+            ErrorState::ErrorActive => BusEvent::Active,
         }
     }
 

@@ -21,7 +21,7 @@ use od_runtime::{BusEvent, Frame, Instant};
 
 use self::cable::{Measure, Property};
 use self::controller::PASSIVE;
-pub use self::controller::{Condition, Controller};
+pub use self::controller::{Controller, ErrorState};
 pub use self::medium::{Disturbance, FrameError};
 pub(crate) use self::medium::{Due, Ended, Medium, PROCESSING, Waiting};
 use crate::chance::Chance;
@@ -205,7 +205,7 @@ impl Line {
         };
         let listens = listener.present && self.is_plugged(to);
         listens
-            && self.controller(to).condition() != Condition::BusOff
+            && self.controller(to).error_state() != ErrorState::BusOff
             && same_rate(sender.rate, listener.rate)
     }
 
@@ -274,7 +274,7 @@ impl Line {
         }
         while let Some((place, recessive)) = first_difference(&left) {
             let active = |(station, _): &(usize, Frame)| {
-                self.controller(*station).condition() == Condition::ErrorActive
+                self.controller(*station).error_state() == ErrorState::ErrorActive
             };
             if recessive.iter().any(active) {
                 let senders: Vec<usize> = starters.iter().map(|(station, _)| *station).collect();
@@ -314,7 +314,7 @@ impl Line {
         let on_line = |station: &usize| {
             self.is_plugged(*station)
                 && stations[*station].present
-                && self.controller(*station).condition() != Condition::BusOff
+                && self.controller(*station).error_state() != ErrorState::BusOff
         };
         (0..stations.len())
             .filter(|station| !senders.contains(station))
@@ -350,7 +350,7 @@ impl Line {
             .filter(|other| !same(other))
             .collect();
         let destroys = |line: &Self, station: &usize| {
-            line.controller(*station).condition() == Condition::ErrorActive
+            line.controller(*station).error_state() == ErrorState::ErrorActive
         };
         let is_late = self.is_late(rate);
         let error = if strangers.iter().any(|other| destroys(self, other)) {

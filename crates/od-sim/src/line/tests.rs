@@ -21,7 +21,7 @@ fn stations(rates: &[u16]) -> Vec<Station> {
 /// Tries to send a frame up to 100 times; returns the reasons of the failed attempts, and whether it got through.
 fn send(line: &mut Line, stations: &[Station], from: usize) -> (Vec<FrameError>, bool) {
     let mut failed = Vec::new();
-    while failed.len() < 100 && line.controller(from).condition() != Condition::BusOff {
+    while failed.len() < 100 && line.controller(from).error_state() != ErrorState::BusOff {
         let frame = Frame::standard(0x80, &[]);
         match line
             .try_once(Instant::ZERO, stations, &[(from, frame)])
@@ -46,14 +46,14 @@ fn a_station_with_another_rate_disturbs_until_error_passive_and_goes_bus_off_whe
     let (mut line, stations) = (real(2), stations(&[500, 500, 250]));
     let first = send(&mut line, &stations, 0);
     assert_eq!(first, (vec![FrameError::OtherBitRate; 16], true));
-    assert_eq!(line.controller(2).condition(), Condition::ErrorPassive);
+    assert_eq!(line.controller(2).error_state(), ErrorState::ErrorPassive);
     assert_eq!(send(&mut line, &stations, 0), (Vec::new(), true));
     assert!(!line.hears(&stations, 0, 2));
     let (failed, through) = send(&mut line, &stations, 2);
     assert_eq!((failed.len(), through), (32, false));
-    assert_eq!(line.controller(2).condition(), Condition::BusOff);
+    assert_eq!(line.controller(2).error_state(), ErrorState::BusOff);
     line.restart(2);
-    assert_eq!(line.controller(2).condition(), Condition::ErrorActive);
+    assert_eq!(line.controller(2).error_state(), ErrorState::ErrorActive);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn alone_on_the_line_a_node_repeats_and_is_never_bus_off() {
     let alone = (vec![FrameError::NoAcknowledge; 100], false);
     assert_eq!(send(&mut line, &stations, 1), alone);
     assert_eq!(line.controller(1).transmit, 128);
-    assert_eq!(line.controller(1).condition(), Condition::ErrorPassive);
+    assert_eq!(line.controller(1).error_state(), ErrorState::ErrorPassive);
     line.set_plugged(0, true);
     assert_eq!(send(&mut line, &stations, 1), (Vec::new(), true));
     assert_eq!(line.controller(1).transmit, 127);
@@ -125,7 +125,7 @@ fn an_error_passive_sender_counts_if_it_sees_the_error_flag_of_another() {
         assert_eq!(outcome.error, Some(FrameError::NoAcknowledge));
         let is_off = attempt == 16;
         assert_eq!(
-            line.controller(1).condition() == Condition::BusOff,
+            line.controller(1).error_state() == ErrorState::BusOff,
             is_off,
             "{attempt}"
         );
@@ -144,7 +144,7 @@ fn a_late_acknowledgement_leads_to_bus_off_and_frames_that_arrive_several_times(
     line.cable.length = 150;
     let frame = Frame::standard(0x705, &[0x7F]);
     let mut received = Vec::new();
-    while line.controller(1).condition() != Condition::BusOff {
+    while line.controller(1).error_state() != ErrorState::BusOff {
         let attempt = line.try_once(Instant::ZERO, &stations, &[(1, frame)]);
         assert_eq!(attempt.error, Some(FrameError::NoAcknowledge));
         received.push(attempt.received);
@@ -173,7 +173,7 @@ fn on_a_short_circuited_line_each_sender_goes_bus_off() {
     }
     for station in 0..3 {
         let controller = line.controller(station);
-        assert_eq!(controller.condition(), Condition::BusOff, "{station}");
+        assert_eq!(controller.error_state(), ErrorState::BusOff, "{station}");
         assert_eq!(controller.receive, 0, "{station}");
         line.restart(station);
     }
@@ -208,12 +208,16 @@ fn a_transmit_error_counts_8_and_a_success_1() {
         controller.erred_sending();
         assert_eq!(controller.transmit, 8 * errors);
     }
-    assert_eq!(controller.condition(), Condition::ErrorPassive);
+    assert_eq!(controller.error_state(), ErrorState::ErrorPassive);
     controller.sent();
     assert_eq!(controller.transmit, 247);
     controller.erred_sending();
-    assert_eq!(controller.condition(), Condition::ErrorPassive, "255");
+    assert_eq!(controller.error_state(), ErrorState::ErrorPassive, "255");
     controller.erred_sending();
-    assert_eq!(controller.condition(), Condition::BusOff, "256 at the most");
+    assert_eq!(
+        controller.error_state(),
+        ErrorState::BusOff,
+        "256 at the most"
+    );
     assert_eq!(controller.transmit, 256);
 }
