@@ -1,6 +1,5 @@
 //! Arguments of callers, checked.
 
-use od_client::lss::Identity;
 use od_wire::nmt::Command;
 use od_wire::{Duration, NodeId};
 use pyo3::exceptions::PyValueError;
@@ -43,14 +42,4 @@ pub(crate) fn command_of(word: &str) -> PyResult<Command> {
             )));
         }
     })
-}
-
-/// An LSS address: vendor-ID, product code, revision number, serial number.
-pub(crate) fn identity((vendor, product, revision, serial): (u32, u32, u32, u32)) -> Identity {
-    Identity {
-        vendor,
-        product,
-        revision,
-        serial,
-    }
 }

@@ -14,7 +14,7 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::client::arguments::{command_of, id_of, identity, seconds_of};
+use crate::client::arguments::{command_of, id_of, seconds_of};
 use crate::client::core::Core;
 use crate::client::errors::of_transfer;
 use crate::client::heard::{Emcy, Found, Pdo};
@@ -395,8 +395,7 @@ impl Client {
     /// Raises `odkit.NodeError` if two have the same address.
     fn lss_scan(&self, py: Python<'_>) -> PyResult<Vec<(u32, u32, u32, u32)>> {
         let found = self.with(py, |core| Lss::new(&mut core.line).scan(|_| ()))?;
-        let parts = |one: Identity| (one.vendor, one.product, one.revision, one.serial);
-        Ok(found.into_iter().map(parts).collect())
+        Ok(found.into_iter().map(|one| one.parts().into()).collect())
     }
 
     /// Sets the node ID of the slave with an LSS address (from `lss_scan`), and stores it with
@@ -414,7 +413,7 @@ impl Client {
     ) -> PyResult<bool> {
         let node = id_of(node_id)?;
         self.with(py, |core| {
-            Lss::new(&mut core.line).set_node_id(identity(address), node, store)
+            Lss::new(&mut core.line).set_node_id(Identity::new(address.into()), node, store)
         })
     }
 
@@ -431,7 +430,7 @@ impl Client {
         store: bool,
         activate: Option<u16>,
     ) -> PyResult<()> {
-        let slaves = address.map_or(Slaves::All, |one| Slaves::One(identity(one)));
+        let slaves = address.map_or(Slaves::All, |one| Slaves::One(Identity::new(one.into())));
         self.with(py, |core| {
             Lss::new(&mut core.line).set_bit_rate(slaves, kbit, store, activate)
         })

@@ -3,7 +3,6 @@
 use od_sim::words::Decoder;
 use od_tools::conform::case::{Case, built_in};
 use od_tools::conform::eds::Eds;
-use od_tools::conform::record::Verdict;
 use od_tools::conform::session::{Leave, Session};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -172,12 +171,7 @@ impl Conform {
         });
         Ok(Record {
             frames: frames.collect(),
-            verdict: match record.verdict {
-                Verdict::Pass => "pass",
-                Verdict::Fail { .. } => "fail",
-                Verdict::Skipped(_) => "skipped",
-                Verdict::NotApplicable(_) => "n/a",
-            },
+            verdict: record.verdict.word(),
             reason: record.verdict.reason(),
             id: record.id,
             group: record.group,

@@ -1,4 +1,4 @@
-//! Check and fix.
+//! `odkit.check`, `odkit.fix`: findings in a device description, and their fixes.
 
 use std::path::PathBuf;
 
