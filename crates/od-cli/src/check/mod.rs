@@ -200,7 +200,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     match args.output_format {
         Format::Json if args.statistics => drop(output.line(&statistics::json(&checked))?),
         _ if args.statistics => {
-            output.line(statistics::text(&checked).trim_end())?;
+            let counts = statistics::text(&checked);
+            if !counts.is_empty() {
+                output.line(counts.trim_end())?;
+            }
             text(args, &checked, &summary, &mut output)?;
         }
         _ if args.diff => text(args, &checked, &summary, &mut output)?,

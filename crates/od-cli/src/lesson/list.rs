@@ -1,4 +1,4 @@
-//! `odkit lesson list`.
+//! `odkit lesson list`: a line for each lesson.
 
 use std::path::PathBuf;
 
@@ -24,12 +24,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut output = Output::new();
     let mut bad = false;
-    for file in files(&paths, args.lang)? {
+    let files = files(&paths, args.lang)?;
+    let width = files.iter().map(|file| file.path.chars().count()).max();
+    let width = width.unwrap_or(0);
+    for file in files {
         match &file.lesson {
             Ok(lesson) => {
                 let steps = report::plural(lesson.steps.len(), "step");
                 let line = format!(
-                    "{}  level {}, {:>2} min, {steps}  {}",
+                    "{:width$}  level {}, {:>2} min, {steps}  {}",
                     file.path, lesson.level, lesson.minutes, lesson.title
                 );
                 if !output.line(&line)? {

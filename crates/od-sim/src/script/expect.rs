@@ -90,12 +90,18 @@ impl Runner<'_> {
             }
         };
         self.advance_until_pending(until);
-        self.skip_boot_ups(|frame| wanted.matches(frame));
+        let skipped = self.skip_boot_ups(|frame| wanted.matches(frame));
         self.advance_until_pending(until);
         let wanted_text = format!("{wanted}{when}");
         let Some(sent) = self.progress.pending.pop_front() else {
             let ahead = self.look_ahead();
-            return failed(wanted_text, ahead);
+            return match skipped {
+                Some(boot_up) => failed(
+                    wanted_text,
+                    format!("{}; otherwise {ahead}", self.came(&boot_up)),
+                ),
+                None => failed(wanted_text, ahead),
+            };
         };
         let off = |at: Instant| sent.at.micros_since(at).max(at.micros_since(sent.at));
         if wanted.matches(&sent.frame) && exact.is_none_or(|at| off(at) <= late) {
@@ -159,6 +165,15 @@ mod tests {
             never.contains("the CAN controller is bus-off within 50ms"),
             "{never}"
         );
+    }
+
+    #[test]
+    fn a_skipped_boot_up_message_is_named_if_another_frame_was_expected() {
+        let why = stops("device gxmm node 1\nexpect 701#01");
+        assert!(why.contains("701#00 came: "), "{why}");
+        assert!(why.contains("; otherwise nothing came"), "{why}");
+        let why = stops("device gxmm node 1\nexpect 701#00\nexpect 701#00");
+        assert!(!why.contains("701#00 came"), "{why}");
     }
 
     #[test]

@@ -20,6 +20,7 @@ use crate::grammar::draw::drawn;
 use crate::grammar::line::line;
 use crate::grammar::pattern::Pattern;
 use crate::grammar::tokens::Tokens;
+use crate::words::plural;
 
 /// Longest time in which a frame of a script is sent, in microseconds: on a line that is always full it never gets its turn.
 const SENDING: u64 = 10_000_000;
@@ -274,35 +275,8 @@ impl Runner<'_> {
         let mut first = None;
         let (mut channel, mut channels) = (0, 1);
         while channel < channels {
-            let mut device = self
-                .host
-                .device(wanted.name.as_deref(), id)
-                .or_else(impossible)?;
+            let device = self.channel(wanted, id, channel)?;
             channels = device.channels();
-            if wanted.nodes.len() > usize::from(channels) {
-                return impossible(format!(
-                    "{} has {channels} node ID, not {}",
-                    device.title(),
-                    wanted.nodes.len()
-                ));
-            }
-            if wanted.serial.is_some() || channel > 0 {
-                let serial = wanted.serial.unwrap_or(1);
-                device = device.with_serial_number(serial.wrapping_add(u32::from(channel)));
-            }
-            if let Some(bytes) = wanted.domain_size
-                && !device.set_domain_size(bytes)
-            {
-                return impossible(format!(
-                    "`domain-size` is for devices of EDS files; {} is built in",
-                    device.title()
-                ));
-            }
-            if let Some(limits) = self.limits
-                && self.bench.bus.devices().len() >= limits.devices
-            {
-                return impossible(limits.room());
-            }
             let number = match first.or(beside) {
                 Some(other) => self.bench.bus.add_beside(device, other),
                 None => self.bench.bus.add(device),
@@ -335,14 +309,54 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Removes boot-up messages from the queue that do not match.
-    pub(super) fn skip_boot_ups(&mut self, wanted: impl Fn(&Frame) -> bool) {
+    /// Makes a channel of a device, counted from 0.
+    fn channel(
+        &mut self,
+        wanted: &NewDevice,
+        id: Option<NodeId>,
+        channel: u8,
+    ) -> Result<VirtualDevice> {
+        let name = wanted.name.as_deref();
+        let mut device = self.host.device(name, id).or_else(impossible)?;
+        let channels = device.channels();
+        if wanted.nodes.len() > usize::from(channels) {
+            return impossible(format!(
+                "{} has {}, not {}",
+                device.title(),
+                plural(channels.into(), "node ID"),
+                wanted.nodes.len()
+            ));
+        }
+        if wanted.serial.is_some() || channel > 0 {
+            let serial = wanted.serial.unwrap_or(1);
+            device = device.with_serial_number(serial.wrapping_add(u32::from(channel)));
+        }
+        if let Some(bytes) = wanted.domain_size
+            && !device.set_domain_size(bytes)
+        {
+            return impossible(format!(
+                "`domain-size` is for devices of EDS files; {} is built in",
+                device.title()
+            ));
+        }
+        if let Some(limits) = self.limits
+            && self.bench.bus.devices().len() >= limits.devices
+        {
+            return impossible(limits.room());
+        }
+        Ok(device)
+    }
+
+    /// Removes boot-up messages from the queue that do not match, and returns the last of them.
+    pub(super) fn skip_boot_ups(&mut self, wanted: impl Fn(&Frame) -> bool) -> Option<Sent> {
+        let mut last = None;
         while let Some(sent) = self.progress.pending.front()
             && self.progress.boot_ups.contains(sent)
             && !wanted(&sent.frame)
         {
-            self.progress.pending.pop_front();
+            last = self.progress.pending.pop_front();
         }
+        last
     }
 
     /// The device of the current lines.

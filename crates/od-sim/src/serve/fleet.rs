@@ -36,7 +36,7 @@ pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, Refused>
 pub(super) struct PlacedDevice {
     /// It starts without power.
     pub(super) device: VirtualDevice,
-    /// PlacedDevice of the device whose shaft it uses, if it has no shaft of its own.
+    /// Index of the device whose shaft it uses, if it has no shaft of its own.
     pub(super) beside: Option<usize>,
 }
 
@@ -49,47 +49,11 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<PlacedDev
             (0..channels).map(move |channel| (maker, channel))
         })
         .collect();
-    let count = nodes.len();
-    for (option, given) in [
-        ("--node-id", args.node_ids.len()),
-        ("--serial", args.serials.len()),
-        ("--eeprom", args.eeproms.len()),
-    ] {
-        if given > count {
-            let devices = plural(count, "device");
-            return Err(Error::Usage(format!(
-                "`{option}` is given {given} times for {devices}"
-            )));
-        }
-    }
-    if args.eeprom_reset && args.eeproms.is_empty() {
-        let why = "`--eeprom-reset` needs `--eeprom FILE`";
-        return Err(Error::Usage(why.into()));
-    }
+    fits(args, nodes.len())?;
     let mut placed: Vec<PlacedDevice> = Vec::new();
     let mut has_shaft = false;
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
-        let wanted = args.node_ids.get(at).copied();
-        let wanted = wanted.or_else(|| maker.node_id.filter(|_| channel == 0).map(Some));
-        let device = one(maker, wanted, &placed)?;
-        let mut device = match wanted {
-            Some(Some(_)) => device.with_node_switch(),
-            _ => device.delivered(),
-        };
-        if let Some(number) = args
-            .serials
-            .get(at)
-            .copied()
-            .or_else(|| free(&device, &placed))
-        {
-            device = device.with_serial_number(number);
-        }
-        device.set_domain_size(args.domain_size);
-        if let Some(path) = args.eeproms.get(at) {
-            regular(path)?;
-            let file = eeprom(path, maker.name, &device, args.eeprom_reset)?;
-            device = device.with_storage(Box::new(file));
-        }
+        let mut device = set_up(maker, channel, args, &placed)?;
         let beside = match channel {
             0 => {
                 has_shaft |= set_shaft(args, at, &mut device);
@@ -111,6 +75,55 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<PlacedDev
         )));
     }
     Ok(placed)
+}
+
+/// Refuses options that are given for more devices than there are.
+fn fits(args: &Options, count: usize) -> Result<(), Error> {
+    for (option, given) in [
+        ("--node-id", args.node_ids.len()),
+        ("--serial", args.serials.len()),
+        ("--eeprom", args.eeproms.len()),
+    ] {
+        if given > count {
+            let devices = plural(count, "device");
+            return Err(Error::Usage(format!(
+                "`{option}` is given {given} times for {devices}"
+            )));
+        }
+    }
+    if args.eeprom_reset && args.eeproms.is_empty() {
+        let why = "`--eeprom-reset` needs `--eeprom FILE`";
+        return Err(Error::Usage(why.into()));
+    }
+    Ok(())
+}
+
+/// Makes the next device of the bench, with the node ID, serial number and EEPROM that the options give it.
+fn set_up(
+    maker: &Maker<'_>,
+    channel: u8,
+    args: &Options,
+    placed: &[PlacedDevice],
+) -> Result<VirtualDevice, Error> {
+    let at = placed.len();
+    let wanted = args.node_ids.get(at).copied();
+    let wanted = wanted.or_else(|| maker.node_id.filter(|_| channel == 0).map(Some));
+    let device = one(maker, wanted, placed)?;
+    let mut device = match wanted {
+        Some(Some(_)) => device.with_node_switch(),
+        _ => device.delivered(),
+    };
+    let serial = args.serials.get(at).copied();
+    if let Some(number) = serial.or_else(|| free(&device, placed)) {
+        device = device.with_serial_number(number);
+    }
+    device.set_domain_size(args.domain_size);
+    if let Some(path) = args.eeproms.get(at) {
+        regular(path)?;
+        let file = eeprom(path, maker.name, &device, args.eeprom_reset)?;
+        device = device.with_storage(Box::new(file));
+    }
+    Ok(device)
 }
 
 /// Refuses a path that exists but cannot hold an EEPROM; opening a FIFO would wait for its other end.

@@ -17,6 +17,10 @@ use crate::device::VirtualDevice;
 use crate::device::services::Services;
 use crate::links::adapter::RATES;
 
+/// What a person can type at a link on standard input.
+const CONSOLE: &str = "\nstandard input takes frames (601#4000100000000000) and script lines \
+                       for the\nworld outside the bus (power cycle 2s, shaft rpm 60, use 2)\n";
+
 /// Prints the greeting to standard output, or to standard error if standard output carries frames.
 pub(super) fn print(
     first: Option<&Maker<'_>>,
@@ -184,57 +188,42 @@ fn page(text: &mut String, address: &str) {
 
 /// Commands that reach the first device over this link.
 fn help(text: &mut String, link: &Opened, maker: &Maker<'_>, device: &VirtualDevice, bitrate: u32) {
+    let slcan = |channel: &str| {
+        let connect = format!(
+            "interface='slcan', channel='{channel}',\n                  \
+             bitrate={bitrate}, sleep_after_open=0"
+        );
+        (connect, "canopen pyserial")
+    };
+    let (connect, needs) = match link {
+        Opened::Listener(Protocol::Socketcand, _, address) => {
+            let (host, port) = (address.ip(), address.port());
+            let connect = format!(
+                "interface='socketcand', channel='can0',\n                  host='{host}', port={port}"
+            );
+            (connect, "canopen")
+        }
+        Opened::Listener(Protocol::WebSocket(gate), _, address) => {
+            return page(text, &gate.address(*address));
+        }
+        Opened::Listener(_, _, address) => slcan(&format!("socket://{address}")),
+        Opened::Ends(ends) => match ends.protocol {
+            Protocol::Slcan => slcan(&ends.name),
+            Protocol::CanFrame => {
+                let connect = format!("interface='socketcan', channel='{}'", ends.name);
+                (connect, "canopen")
+            }
+            _ => {
+                text.push_str(CONSOLE);
+                return;
+            }
+        },
+    };
     let node = device.node_id().raw();
     let scan = if device.is_configured() {
         String::new()
     } else {
-        format!(
-            "  network.lss.fast_scan()
-  network.lss.configure_node_id({node})
-  network.lss.store_configuration()
-  network.lss.send_switch_state_global(network.lss.WAITING_STATE)\n"
-        )
-    };
-    let (connect, needs) = match link {
-        Opened::Listener(Protocol::Socketcand, _, address) => (
-            format!(
-                "interface='socketcand', channel='can0',\n                  host='{}', port={}",
-                address.ip(),
-                address.port()
-            ),
-            "canopen",
-        ),
-        Opened::Listener(Protocol::WebSocket(gate), _, address) => {
-            return page(text, &gate.address(*address));
-        }
-        Opened::Listener(_, _, address) => (
-            format!(
-                "interface='slcan', channel='socket://{address}',\n                  \
-                 bitrate={bitrate}, sleep_after_open=0"
-            ),
-            "canopen pyserial",
-        ),
-        Opened::Ends(ends) => match ends.protocol {
-            Protocol::Slcan => (
-                format!(
-                    "interface='slcan', channel='{}',\n                  \
-                     bitrate={bitrate}, sleep_after_open=0",
-                    ends.name
-                ),
-                "canopen pyserial",
-            ),
-            Protocol::CanFrame => (
-                format!("interface='socketcan', channel='{}'", ends.name),
-                "canopen",
-            ),
-            _ => {
-                text.push_str(
-                    "\nstandard input takes frames (601#4000100000000000) and script lines \
-                     for the\nworld outside the bus (power cycle 2s, shaft rpm 60, use 2)\n",
-                );
-                return;
-            }
-        },
+        fast_scan(node)
     };
     let (description, read) = match maker.kind {
         Some(_) => (
@@ -254,6 +243,16 @@ python-canopen (pip install {needs})
   print(node.{read})"
     );
     candump(text, link, node, bitrate);
+}
+
+/// Lines that give a device without a node ID this one, by LSS fastscan.
+fn fast_scan(node: u8) -> String {
+    format!(
+        "  network.lss.fast_scan()
+  network.lss.configure_node_id({node})
+  network.lss.store_configuration()
+  network.lss.send_switch_state_global(network.lss.WAITING_STATE)\n"
+    )
 }
 
 /// Commands for candump; none for a link that Linux tools cannot open.

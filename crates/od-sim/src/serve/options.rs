@@ -37,7 +37,7 @@ pub struct Options {
     pub bitrate: u32,
     /// Limit of TCP clients at a time; further ones are refused.
     pub max_clients: usize,
-    /// ControlAddress of the control socket.
+    /// Address of the control socket.
     pub control: Option<ControlAddress>,
     /// Log file of the bus: pcapng if its name ends in .pcapng, otherwise candump.
     pub log: Option<PathBuf>,

@@ -1,4 +1,4 @@
-//! ControlAddress of the control socket: a path, or a port of this computer.
+//! Address of the control socket of a bench: a path, or a port of this computer.
 
 use od_model::Refused;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::io::{self, Read, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
 use std::path::PathBuf;
 
-/// ControlAddress of the control socket.
+/// Address of the control socket of a bench.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ControlAddress {
     /// A Unix socket.
