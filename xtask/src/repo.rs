@@ -1,4 +1,4 @@
-//! Places in the repository.
+//! Paths of the repository: its root, and folders that commands use.
 
 use std::env;
 use std::fs;

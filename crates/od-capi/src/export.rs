@@ -1,4 +1,4 @@
-//! The functions of the header.
+//! `export!`: the C functions of `odkit.h`, for the nodes that it names.
 
 /// Makes the functions that `include/odkit.h` declares, for the dictionary in a module that
 /// `object_dictionary!` made. Its node has the handle 0.

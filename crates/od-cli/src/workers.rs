@@ -1,4 +1,4 @@
-//! Work on many items at once.
+//! Calls a function for many items, on all processors.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

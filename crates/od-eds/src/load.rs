@@ -1,4 +1,4 @@
-//! Reading and checking.
+//! Reads a device description of any format, and checks it: `parse`, `load`, `Document`.
 
 #[cfg(feature = "xdd")]
 use alloc::collections::BTreeSet;

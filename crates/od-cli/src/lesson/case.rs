@@ -1,4 +1,4 @@
-//! `odkit lesson case`.
+//! `odkit lesson case`: a fault case with its probes and its mark.
 
 use std::fmt::Write;
 

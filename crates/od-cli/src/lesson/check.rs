@@ -1,4 +1,4 @@
-//! `odkit lesson check`.
+//! `odkit lesson check`: reads lessons and proves their steps.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `odkit lesson run`.
+//! `odkit lesson run`: a lesson whose lines come from standard input.
 
 use std::io::{self, BufRead};
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! `odkit lesson show`.
+//! `odkit lesson show`: the text of a lesson.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! 08: findings that a file allows: rules that `allow` reports.
+//! Rules whose codes begin with 08: findings that a file allows: rules that `allow` reports.
 
 use crate::finding::{Finding, Fixability, Rule};
 use crate::fix::Fix;

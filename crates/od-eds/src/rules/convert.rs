@@ -1,4 +1,4 @@
-//! 11: targets of `odkit convert` that cannot express the whole description. A warning is about a
+//! Rules whose codes begin with 11: targets of `odkit convert` that cannot express the whole description. A warning is about a
 //! loss that a master sees on the bus; a remark is about any other loss.
 
 use od_model::{Address, DataType};

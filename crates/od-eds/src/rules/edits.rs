@@ -1,4 +1,4 @@
-//! 07: edits of a macro call or a variant: rules that `patch` reports.
+//! Rules whose codes begin with 07: edits of a macro call or a variant: rules that `patch` reports.
 
 use alloc::string::ToString;
 use od_model::{DataType, Kind, ObjectCode};

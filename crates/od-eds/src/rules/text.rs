@@ -1,4 +1,4 @@
-//! 01: text and INI structure: rules reported by the reader of lines, keys and encodings.
+//! Rules whose codes begin with 01: text and INI structure: rules reported by the reader of lines, keys and encodings.
 
 use alloc::format;
 use alloc::string::String;

@@ -1,4 +1,4 @@
-//! Parts of several readers.
+//! What the readers of several tools share: section names, and the rule of a file that a tool rejects.
 
 use crate::finding::{Fixability, Form, Rule};
 use crate::fix::Fix;

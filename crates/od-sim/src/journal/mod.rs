@@ -39,6 +39,23 @@ pub struct AddedDevice {
 }
 
 /// A bench and its journal.
+///
+/// ```
+/// use od_sim::journal::{Input, Journal, Source};
+/// use od_wire::Instant;
+///
+/// let mut journal = Journal::new(od_devices::DEVICES);
+/// let source = Source::Builtin { name: "gxmm".into() };
+/// journal.act(Input::Add { source, node_id: 1, place: None });
+/// journal.advance(1_000_000, usize::MAX);
+/// journal.act(Input::Power { node: 0, on: false });
+///
+/// // Half a second before, the power was still on.
+/// journal.rewind(Instant::from_micros(500_000));
+/// assert!(journal.rig.bus.devices()[0].is_powered());
+/// journal.advance(500_000, usize::MAX);
+/// assert!(!journal.rig.bus.devices()[0].is_powered());
+/// ```
 pub struct Journal {
     /// The bench. Changes made without the journal are not repeated.
     pub rig: Rig,

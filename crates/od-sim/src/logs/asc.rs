@@ -1,4 +1,4 @@
-//! Vector ASC.
+//! ASC logs of CANoe and CANalyzer: text with one event in a line.
 
 use std::prelude::v1::*;
 

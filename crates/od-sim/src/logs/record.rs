@@ -1,4 +1,4 @@
-//! One record of a log.
+//! A record of a log: a frame or an error of the bus, with its time.
 
 use std::fmt;
 use std::prelude::v1::*;

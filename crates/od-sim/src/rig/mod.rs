@@ -53,6 +53,23 @@ pub enum LineEvent {
 }
 
 /// A bus with its profiles, cyclic frames, SDO client and lesson.
+///
+/// ```
+/// use od_sim::rig::Rig;
+/// use od_model::Address;
+/// use od_wire::{Instant, NodeId};
+///
+/// let mut rig = Rig::default();
+/// let encoder = od_devices::find("gxmm").expect("a built-in device");
+/// rig.put_kind(encoder, NodeId::ONE, None);
+/// rig.read(NodeId::ONE, Address::new(0x6001, 0));
+/// while let Some(frame) = rig.request() {
+///     rig.send(&frame);
+///     rig.pass(Instant::from_micros(10_000), usize::MAX);
+/// }
+/// let outcome = rig.outcome().expect("a response");
+/// assert_eq!(outcome.result, Ok(vec![0x00, 0x20, 0, 0]));
+/// ```
 #[derive(Default)]
 pub struct Rig {
     /// The bus. [`collect_frames`](Self::collect_frames) records the frames that devices send because of a change.

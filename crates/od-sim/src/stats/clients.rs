@@ -61,6 +61,20 @@ impl Client {
 }
 
 /// The SDO clients of a bus, by ascending node ID of their server.
+///
+/// ```
+/// use od_sim::stats::Clients;
+/// use od_wire::{Frame, Instant};
+///
+/// let mut clients = Clients::default();
+/// let request = Frame::standard(0x605, &[0x40, 0x00, 0x10, 0, 0, 0, 0, 0]);
+/// let response = Frame::standard(0x585, &[0x43, 0x00, 0x10, 0, 0x96, 1, 2, 0]);
+/// clients.take(Instant::from_micros(0), &request);
+/// clients.take(Instant::from_micros(400), &response);
+/// let [client] = clients.all() else { panic!("one client") };
+/// assert_eq!((client.node, client.requests, client.unanswered), (5, 1, 0));
+/// assert_eq!(client.times().map(|times| times.most), Some(400));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Clients(Vec<Client>);
 

@@ -81,6 +81,19 @@ impl Row {
 }
 
 /// The CAN-IDs of a bus: those of 11 bits first, each in ascending order.
+///
+/// ```
+/// use od_sim::stats::Ids;
+/// use od_wire::{Frame, Instant};
+///
+/// let mut ids = Ids::default();
+/// let heartbeat = Frame::standard(0x701, &[0x05]);
+/// for millis in [0, 100, 201, 300] {
+///     ids.take(Instant::from_micros(millis * 1000), &heartbeat);
+/// }
+/// let [row] = ids.rows() else { panic!("one CAN-ID") };
+/// assert_eq!((row.count, row.recent_period(), row.jitter()), (4, Some(100_000.0), Some(2_000)));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Ids(Vec<Row>);
 

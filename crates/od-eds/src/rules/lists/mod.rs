@@ -1,4 +1,4 @@
-//! 02: contradictions between lists, sections and keys.
+//! Rules whose codes begin with 02: contradictions between lists, sections and keys.
 
 catalogue! {
     reader W0201

@@ -1,4 +1,4 @@
-//! 05: PDOs.
+//! Rules whose codes begin with 05: PDOs.
 
 mod cob_ids;
 pub(crate) mod shared;

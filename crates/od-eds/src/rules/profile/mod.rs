@@ -1,4 +1,4 @@
-//! 09: device profiles.
+//! Rules whose codes begin with 09: device profiles.
 
 pub(crate) mod shared;
 

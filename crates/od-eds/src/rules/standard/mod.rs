@@ -1,4 +1,4 @@
-//! 06: mandatory and standard objects, identity, `[DeviceInfo]`.
+//! Rules whose codes begin with 06: mandatory and standard objects, identity, `[DeviceInfo]`.
 
 mod shared;
 

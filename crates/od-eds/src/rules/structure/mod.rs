@@ -1,4 +1,4 @@
-//! 03: the parts of an object.
+//! Rules whose codes begin with 03: the parts of an object.
 
 mod shared;
 

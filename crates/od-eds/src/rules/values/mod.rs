@@ -1,4 +1,4 @@
-//! 04: types, values, limits.
+//! Rules whose codes begin with 04: types, values, limits.
 
 pub(crate) mod shared;
 
