@@ -1,4 +1,4 @@
-//! 12: nodes of a network that do not fit together, and networks that cannot be read.
+//! Rules whose codes begin with 12: nodes of a network that do not fit together, and networks that cannot be read.
 
 catalogue! {
     nodes E1201 (example)
