@@ -23,6 +23,8 @@ pub enum Error {
     Abort(u32),
     /// No response came in time.
     Silent,
+    /// The node sent a boot-up message during the transfer, which it has forgotten.
+    Booted,
     /// The response is for another object, has another command or the wrong toggle bit.
     OutOfTurn {
         /// The expected response.
@@ -39,7 +41,7 @@ pub enum Error {
         /// Number of bytes up to the end, or to the point where the client gave up.
         received: usize,
     },
-    /// A response is too short for the value that it says it has.
+    /// A response is too short for what it says: a value, a size, or an abort code.
     Short {
         /// Number of bytes that the response needs.
         needed: u8,
@@ -59,6 +61,8 @@ pub enum Error {
         /// Specific error of the manufacturer.
         specific: u8,
     },
+    /// The LSS slave responded with this node ID, which is neither 1 to 127 nor 255 (CiA 305, chapter 6.5.2).
+    InvalidNodeId(u8),
     /// The LSS slave that fastscan was looking for did not confirm its LSS address.
     ScanFailed,
 }
@@ -68,6 +72,7 @@ impl fmt::Display for Error {
         match self {
             Self::Abort(code) => write!(f, "SDO abort {}", AbortReason(*code)),
             Self::Silent => f.write_str("no response comes in time"),
+            Self::Booted => f.write_str("the node booted during the transfer"),
             Self::OutOfTurn { expected, got } => {
                 write!(f, "{expected} was expected, but ")?;
                 match (expected, got) {
@@ -96,7 +101,7 @@ impl fmt::Display for Error {
             ),
             Self::Short { needed, received } => write!(
                 f,
-                "the length of a response is {received}, and its value needs {needed}; an SDO message has 8 bytes"
+                "the length of a response is {received}, and its content needs {needed}; an SDO message has 8 bytes"
             ),
             Self::Crc => f.write_str("the checksum of the block transfer does not match"),
             Self::NoProgress => f.write_str("the SDO server does not continue the transfer"),
@@ -106,6 +111,9 @@ impl fmt::Display for Error {
                 specific,
             } => write!(f, "the LSS slave responds with specific error {specific}"),
             Self::Refused { error, .. } => write!(f, "the LSS slave responds with error {error}"),
+            Self::InvalidNodeId(node) => {
+                write!(f, "the LSS slave responds with node ID {node}, which is not valid")
+            }
             Self::ScanFailed => {
                 f.write_str("no LSS slave confirms the LSS address that fastscan found")
             }

@@ -31,7 +31,7 @@ pub enum Error {
     Link(String),
     /// A node does not respond, or lacks what a command needs.
     Node(String),
-    /// A node violates the protocol in the transfer of one object; it may serve its other objects.
+    /// A node violates the protocol, or boots, in the transfer of one object; it may serve its other objects.
     Protocol(String),
     /// The node aborted the SDO transfer with this code (CiA 301, table 22).
     Abort(u32),

@@ -216,6 +216,10 @@ impl<L: Link> Master<L> {
                     self.timeout.as_secs_f32()
                 )));
             }
+            Err(od_client::Error::Booted) => format!(
+                "node {node} booted during the transfer of {address}; check its supply voltage, and its EMCY messages \
+                 with `odkit monitor`"
+            ),
             Err(error @ od_client::Error::OutOfTurn { .. }) => format!(
                 "node {node}: {address}: {error}; does another program read or write this node?"
             ),

@@ -7,6 +7,7 @@ use od_model::Address;
 use od_wire::{Frame, Instant, NodeId};
 
 use super::events::{Event, Events, Job};
+use crate::AbortCode;
 use crate::error::Error;
 use crate::sdo::{Channel, Download, Options, Upload};
 
@@ -34,6 +35,8 @@ pub(super) struct Lane {
     waiting: VecDeque<Waiting>,
     /// The node does not support block transfers; they are not tried again before its next boot-up.
     has_no_block: bool,
+    /// The node has booted since the transfer in progress began.
+    has_booted: bool,
 }
 
 impl Lane {
@@ -43,6 +46,7 @@ impl Lane {
             active: None,
             waiting: VecDeque::new(),
             has_no_block: false,
+            has_booted: false,
         }
     }
 
@@ -51,8 +55,9 @@ impl Lane {
     }
 
     /// Notes a restart of the node, which may now be another device.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn booted(&mut self) {
         self.has_no_block = false;
+        self.has_booted = true;
     }
 
     /// Adds a waiting job: it writes `bytes`, or reads.
@@ -153,6 +158,7 @@ impl Lane {
             None => Transfer::Upload(Upload::new(channel, object, Vec::new(), options)),
         };
         self.active = Some((next.job, transfer));
+        self.has_booted = false;
     }
 
     /// Ends a completed transfer. Its remaining frames are sent before those of the next
@@ -168,6 +174,10 @@ impl Lane {
             out.push_back(frame);
         }
         let job = *job;
+        let outcome = outcome.map_err(|error| match error {
+            error if self.has_booted && is_lost(error) => Error::Booted,
+            error => error,
+        });
         match self.active.take() {
             Some((_, Transfer::Upload(upload))) => {
                 self.has_no_block |= upload.refused_block();
@@ -180,6 +190,16 @@ impl Lane {
             None => {}
         }
         self.begin();
+    }
+}
+
+/// Returns whether a server without this transfer causes this error: it does not respond, or not to this transfer.
+fn is_lost(error: Error) -> bool {
+    let unknown = [AbortCode::ToggleBit, AbortCode::InvalidCommand].map(AbortCode::code);
+    match error {
+        Error::Abort(code) => unknown.contains(&code),
+        Error::Silent | Error::OutOfTurn { .. } | Error::NoProgress => true,
+        _ => false,
     }
 }
 

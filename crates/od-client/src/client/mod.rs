@@ -160,7 +160,7 @@ impl Client {
             }
             let lane = self.lanes.iter_mut().find(|lane| lane.node() == node);
             if let Some(lane) = lane.filter(|_| state == State::Initialising) {
-                lane.forget();
+                lane.booted();
             }
             self.watch.handle_frame(now, frame);
             self.report_news();

@@ -163,7 +163,12 @@ impl Master {
                 Ok(Answer::Number(value))
             }
             (Task::InquireNodeId, Response::NodeId { node_id }) => {
-                Ok(Answer::NodeId(NodeId::new(node_id)))
+                match (node_id, NodeId::new(node_id)) {
+                    // 255 is that of a slave without a node ID; some send 0.
+                    (0 | 0xFF, _) => Ok(Answer::NodeId(None)),
+                    (_, Some(node)) => Ok(Answer::NodeId(Some(node))),
+                    (other, None) => Err(Error::InvalidNodeId(other)),
+                }
             }
             (task, Response::Configured { command, error }) if is_command(task, command) => {
                 match error {

@@ -1,7 +1,7 @@
 //! Block upload: receives the segments block by block (CiA 301, chapters 7.2.4.3.13 to 7.2.4.3.15).
 
 use od_wire::sdo::{Request, Response, crc16};
-use od_wire::{AbortCode, Instant};
+use od_wire::{AbortCode, Frame, Instant};
 
 use super::buffer::Buffer;
 use super::exchange::{Exchange, parse};
@@ -22,6 +22,8 @@ pub(super) struct BlockUpload {
     heard: bool,
     /// The last segment of the value; the end response tells how many of its bytes are data.
     tail: Option<[u8; 7]>,
+    /// Number of bytes that came with the last segment.
+    tail_length: u8,
     /// Number of consecutive blocks without a new segment.
     stalls: u8,
 }
@@ -35,6 +37,7 @@ impl BlockUpload {
             ack: 0,
             heard: false,
             tail: None,
+            tail_length: 0,
             stalls: 0,
         }
     }
@@ -56,20 +59,26 @@ impl BlockUpload {
         exchange: &mut Exchange,
         buffer: &mut impl Buffer,
         now: Instant,
-        data: &[u8; 8],
+        frame: &Frame,
     ) {
-        let [head, bytes @ ..] = *data;
+        let [head, bytes @ ..] = *frame.bytes();
         let (sequence, last) = (head & 0x7F, head & 0x80 != 0);
         // Segments begin with 1, so 80h is an abort.
         if sequence == 0 || sequence > self.block_size {
-            let got = parse(data);
+            let got = parse(frame.bytes());
             return exchange.refuse(AbortCode::InvalidSequence, Expected::BlockSegment, got);
+        }
+        // How many bytes of the last segment are data, the end response says.
+        let (needed, received) = (if last { 2 } else { 8 }, frame.dlc());
+        if received < needed {
+            return exchange.fail(AbortCode::Length, Error::Short { needed, received });
         }
         self.heard = true;
         exchange.wait(now);
         if sequence == self.ack + 1 {
             if last {
                 self.tail = Some(bytes);
+                self.tail_length = received - 1;
             } else if !exchange.keep(buffer, &bytes, self.size) {
                 return;
             }
@@ -108,8 +117,13 @@ impl BlockUpload {
             let expected = Expected::BlockUploadEnd;
             return exchange.refuse(AbortCode::InvalidCommand, expected, response);
         };
+        let length = 7 - unused.min(7);
+        if length > self.tail_length {
+            let (needed, received) = (length + 1, self.tail_length + 1);
+            return exchange.fail(AbortCode::Length, Error::Short { needed, received });
+        }
         let tail = self.tail.unwrap_or_default();
-        let tail = &tail[..7 - usize::from(unused.min(7))];
+        let tail = &tail[..usize::from(length)];
         if !exchange.keep(buffer, tail, self.size) || !exchange.check_complete(buffer, self.size) {
             return;
         }

@@ -73,6 +73,9 @@ impl<D: AsRef<[u8]>> Download<D> {
         let Some(data) = self.exchange.receive(frame) else {
             return;
         };
+        if !self.exchange.check_length(frame) {
+            return;
+        }
         let response = parse(&data);
         match &mut self.state {
             State::Initiate { expedited } => {

@@ -21,13 +21,19 @@ pub(super) const fn parse(data: &[u8; 8]) -> Response {
     }
 }
 
-/// The number of bytes that the value in a response to an upload needs; the missing ones of a shorter frame are not 0.
+/// The number of bytes that a response needs for what it says; the missing ones of a shorter frame are not 0.
 const fn needed(data: &[u8; 8]) -> u8 {
     match data[0] {
         // A segment.
         command @ 0x00..=0x1F => 8 - (command >> 1 & 7),
         // The value, or its size.
         0x41 | 0x45 | 0x49 | 0x4D => 8,
+        // The size of a block upload, or the code of an abort.
+        ABORT => 8,
+        command if command & 0xE3 == 0xC2 => 8,
+        // The number of segments in a block of a download, after the object or the last number.
+        command if command & 0xE3 == 0xA0 => 5,
+        command if command & 0xE3 == 0xA2 => 3,
         command @ 0x40..=0x5F if command & 3 == 3 => 8 - (command >> 2 & 3),
         // The value without a size has one byte at least.
         command @ 0x40..=0x5F if command & 2 != 0 => 5,
@@ -114,7 +120,7 @@ impl Exchange {
         (self.outcome.is_none() && self.is_open && is_ours && is_due).then_some(data)
     }
 
-    /// Fails if a response to an upload is too short for its value.
+    /// Fails if a response is too short for what it says.
     pub(super) fn check_length(&mut self, frame: &Frame) -> bool {
         let (needed, received) = (needed(frame.bytes()), frame.dlc());
         let is_whole = received >= needed;

@@ -81,7 +81,7 @@ impl<B: Buffer> Upload<B> {
         }
         match &mut self.state {
             State::Blocks(blocks) if blocks.wants_segments() => {
-                blocks.segment(&mut self.exchange, &mut self.buffer, now, &data);
+                blocks.segment(&mut self.exchange, &mut self.buffer, now, frame);
             }
             State::Blocks(blocks) => {
                 blocks.end(&mut self.exchange, &mut self.buffer, parse(&data));

@@ -20,6 +20,11 @@ fn out(client: &mut Client, millis: u64) -> Vec<String> {
     frames.map(|frame| frame.to_string()).collect()
 }
 
+/// The boot-up message of node 1.
+fn booted() -> Frame {
+    Frame::new(CanId::standard(0x701), &[0]).expect("a frame")
+}
+
 fn events(client: &mut Client) -> Vec<Event> {
     core::iter::from_fn(|| client.poll_event()).collect()
 }
@@ -44,6 +49,45 @@ fn jobs_of_one_node_wait_and_jobs_of_several_nodes_run_at_the_same_time() {
     client.handle_frame(at(3), &frame("581#60002000"));
     assert_eq!(events(&mut client), [Event::Written(second, Ok(()))]);
     assert_eq!(client.poll_timeout(), None);
+}
+
+/// A node forgets its transfers when it boots (CiA 301, 7.3.2.2.1): it does not respond, or aborts what it does not know.
+#[test]
+fn a_node_that_boots_during_a_transfer_is_not_silent() {
+    for (last, sent) in [
+        (None, "601#8003200000000405"),
+        (Some("581#80000000 01000405"), ""),
+        (Some("581#80032000 00000305"), ""),
+    ] {
+        let mut client = Client::new();
+        let job = client.read(node(1), OBJECT);
+        out(&mut client, 0);
+        client.handle_frame(at(1), &frame("581#4103200014000000"));
+        out(&mut client, 1);
+        client.handle_frame(at(2), &booted());
+        match last {
+            Some(last) => client.handle_frame(at(3), &frame(&last.replace(' ', ""))),
+            None => client.handle_timeout(at(1001)),
+        }
+        let read = Event::Read(job, Err(Error::Booted));
+        let all = events(&mut client);
+            assert!(all.contains(&read), "{last:?}: {all:?}");
+        assert_eq!(out(&mut client, 1001).concat(), sent, "{last:?}");
+        // It has served its requests since then.
+        let next = client.read(node(1), OBJECT);
+        out(&mut client, 1002);
+        client.handle_timeout(at(2002));
+        let read = Event::Read(next, Err(Error::Silent));
+        assert_eq!(events(&mut client), [read], "{last:?}");
+    }
+    // Another abort is the answer of the node that has booted.
+    let mut client = Client::new();
+    let job = client.read(node(1), OBJECT);
+    out(&mut client, 0);
+    client.handle_frame(at(1), &booted());
+    client.handle_frame(at(2), &frame("581#8003200000000206"));
+    let read = Event::Read(job, Err(Error::Abort(0x0602_0000)));
+    assert!(events(&mut client).contains(&read));
 }
 
 #[test]

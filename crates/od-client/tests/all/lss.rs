@@ -88,6 +88,12 @@ fn each_service_has_its_frames() {
         Ok(Answer::NodeId(None)),
     );
     check(
+        Task::InquireNodeId,
+        &["5E"],
+        "5EC8",
+        Err(Error::InvalidNodeId(200)),
+    );
+    check(
         Task::ConfigureNodeId(NodeId::new(5)),
         &["1105"],
         "11",

@@ -3,7 +3,7 @@
 
 use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
 use crate::support::{Machine, at, frame, pattern, upload};
-use od_client::Error;
+use od_client::{CanId, Error, Frame};
 use od_client::sdo::{Expected, Upload};
 
 /// A block upload of `len` bytes after its start: blocks of four segments, with CRC.
@@ -222,4 +222,42 @@ fn an_unexpected_response_ends_a_block_upload() {
         upload.talk(&[("81", "A20104")]);
         refuses(&mut upload, answer, COMMAND, Expected::BlockUploadEnd);
     }
+}
+
+/// A frame of the server with these bytes only.
+fn short(data: &[u8]) -> Frame {
+    Frame::new(CanId::standard(0x581), data).expect("8 bytes")
+}
+
+/// A block upload of 24 bytes of which this last segment came, and then the end with this first byte.
+fn ended_by(last: &[u8], end: &str) -> Upload<Vec<u8>> {
+    let data = pattern(21);
+    let mut upload = uploading(24);
+    for number in 1..4 {
+        let start = usize::from(number - 1) * 7;
+        upload.talk(&[(&segment(number, &data, start), "-")]);
+    }
+    upload.handle_frame(at(0), &short(last));
+    if upload.outcome().is_none() {
+        upload.talk(&[("", "A20404")]);
+        upload.handle_frame(at(0), &frame(&format!("581#{end}{}", crc(&pattern(24)))));
+    }
+    upload
+}
+
+/// The bytes that a short frame does not have are not 0. The last segment may lack those that are not data.
+#[test]
+fn a_frame_of_a_block_upload_that_is_too_short_ends_it() {
+    let too_short = |needed, received| Some(Err(Error::Short { needed, received }));
+    let rest = &pattern(24)[21..];
+    let whole = [&[0x84], rest].concat();
+    assert_eq!(ended_by(&whole, "D1").outcome(), Some(Ok(())));
+    assert_eq!(ended_by(&whole[..3], "D1").outcome(), too_short(4, 3));
+    assert_eq!(ended_by(&[0x84], "D1").outcome(), too_short(2, 1));
+    let mut first = uploading(24);
+    first.handle_frame(at(0), &short(&[1, 0, 0, 0]));
+    assert_eq!(first.outcome(), too_short(8, 4));
+    let mut size = asked();
+    size.handle_frame(at(0), &short(&[0xC2, 3, 0x20, 0, 24]));
+    assert_eq!(size.outcome(), too_short(8, 5));
 }

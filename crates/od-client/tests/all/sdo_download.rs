@@ -119,6 +119,25 @@ fn other_responses_are_unexpected() {
     ends(in_segments(), "30", "00000305", Expected::DownloadSegment);
 }
 
+/// The missing bytes of a short frame are not an abort code of 0. A response that says all that it must is accepted.
+#[test]
+fn an_abort_without_its_code_is_not_an_abort_code() {
+    let send = |download: &mut Download<Vec<u8>>, data: &[u8]| {
+        let id = od_client::CanId::standard(0x581);
+        download.handle_frame(at(0), &od_client::Frame::new(id, data).expect("8 bytes"));
+    };
+    let mut short = begun(&[1], "2F03200001");
+    send(&mut short, &[0x80, 3, 0x20, 0, 0x11]);
+    let (needed, received) = (8, 5);
+    assert_eq!(
+        short.outcome(),
+        Some(Err(Error::Short { needed, received }))
+    );
+    let mut whole = begun(&[1], "2F03200001");
+    send(&mut whole, &[0x60, 3, 0x20, 0]);
+    assert_eq!(whole.outcome(), Some(Ok(())));
+}
+
 #[test]
 fn a_transfer_without_a_response_ends_after_the_timeout() {
     let mut download = in_segments();

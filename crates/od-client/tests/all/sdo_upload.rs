@@ -269,6 +269,8 @@ fn a_response_that_is_too_short_for_its_value_ends_the_upload() {
         (&[0x42, 0x03, 0x20, 0], 5),
         (&[0x41, 0x03, 0x20, 0, 20], 8),
         (&[0x43], 8),
+        // An abort whose code is not known.
+        (&[0x80, 0x03, 0x20, 0, 0x11, 0], 8),
     ] {
         let mut upload = asked();
         let _ = upload.out(at(0));

@@ -121,7 +121,7 @@ fn a_response_that_is_too_short_for_its_value_is_named() {
     };
     let short = read(|frame| Frame::new(frame.id(), &frame.data()[..5]).expect("5 bytes"));
     assert!(
-        short.contains("the length of a response is 5, and its value needs 8"),
+        short.contains("the length of a response is 5, and its content needs 8"),
         "{short}"
     );
 }
