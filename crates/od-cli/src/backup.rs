@@ -20,6 +20,9 @@ use crate::source::{self, Source};
 ///
 /// The DCF contains the values that can be read and written, except commands, logs and DOMAINs. Names
 /// and types come from the file of --eds or the built-in device that matches 1018h.
+///
+/// Exit code 0: the file has all values that the node does not refuse; 1: the node does not respond, or violates the
+/// protocol in the transfer of a value, which is left out.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID
@@ -100,16 +103,19 @@ pub(crate) fn backup(args: &Args) -> Result<(), Failure> {
                 count += 1;
             }
             // An empty error history.
-            (Err(code), _) if code == AbortCode::NoData.code() => {}
-            (Err(code), _) => missing.push((address, code)),
+            (Err(Error::Abort(code)), _) if code == AbortCode::NoData.code() => {}
+            (Err(failed), _) => missing.push((address, failed)),
             (Ok(_), None) => {}
         }
     }
     let text = od_eds::canonical(&description);
     output::save(Some(&args.output), &text)?;
-    for (address, code) in &missing {
-        note!("{address} is left out: {}", value::abort(*code));
+    for (address, failed) in &missing {
+        note!("{address} is left out: {failed}");
     }
+    let is_whole = missing
+        .iter()
+        .all(|(_, failed)| matches!(failed, Error::Abort(_)));
     let path = args.output.display();
     output::print(&match args.bus.format {
         Format::Text => format!("{path}: {}", plural(count, "value")),
@@ -121,7 +127,12 @@ pub(crate) fn backup(args: &Args) -> Result<(), Failure> {
                 json!({ "file": path.to_string(), "values": count, "missing": missing })
             )
         }
-    })
+    })?;
+    if is_whole {
+        Ok(())
+    } else {
+        Err(Failure::Reported(1))
+    }
 }
 
 fn entry(
@@ -169,7 +180,7 @@ pub(crate) fn apply(args: &Apply) -> Result<(), Failure> {
     let mut bar = Bar::new("applying");
     let applied = configure::apply(&mut master, &settings, |percent| bar.show(percent))?;
     bar.clear();
-    let is_right = applied.wrong.is_empty() && applied.left.is_empty();
+    let is_right = applied.wrong.is_empty() && applied.left.is_empty() && applied.ended.is_none();
     let mut saved = None;
     if args.save && is_right {
         let mut master = Master::patient(master.link(), args.node, crate::save::PATIENCE);
@@ -182,10 +193,10 @@ pub(crate) fn apply(args: &Apply) -> Result<(), Failure> {
     if let Some(Err(code)) = saved {
         return Err(Failure::Failed(format!("1010h:01: {}", value::abort(code))));
     }
-    if is_right {
-        Ok(())
-    } else {
-        Err(Failure::Reported(1))
+    match applied.ended {
+        Some(ended) => Err(ended.into()),
+        None if is_right => Ok(()),
+        None => Err(Failure::Reported(1)),
     }
 }
 
@@ -244,9 +255,9 @@ fn report(args: &Apply, dictionary: Dictionary<'_>, applied: &Applied) -> Result
         Ok(entry) => value::words(Some(dictionary), address, entry.data_type, bytes),
         Err(_) => values::hex(bytes),
     };
-    let found = |address, found: &Result<Vec<u8>, u32>| match found {
+    let found = |address, found: &Result<Vec<u8>, Error>| match found {
         Ok(bytes) => show(address, bytes),
-        Err(code) => value::abort(*code),
+        Err(failed) => failed.to_string(),
     };
     if args.bus.format == Format::Json {
         let wrong = applied.wrong.iter().map(|one| {
@@ -264,6 +275,7 @@ fn report(args: &Apply, dictionary: Dictionary<'_>, applied: &Applied) -> Result
             "wrong": wrong.collect::<Vec<_>>(),
             "put_back": applied.is_put_back,
             "not_put_back": left,
+            "ended": applied.ended.as_ref().map(Error::to_string),
         });
         return output::print(&format!("{report:#}"));
     }
@@ -278,14 +290,21 @@ fn report(args: &Apply, dictionary: Dictionary<'_>, applied: &Applied) -> Result
         ));
     }
     for address in &applied.left {
-        lines.push(format!("{address} could not be restored"));
+        lines.push(format!(
+            "{} may have its new value: it could not be restored",
+            values::label(dictionary, *address)
+        ));
     }
     let equal = plural(applied.equal, "value");
     let written = plural(applied.written, "value");
-    lines.push(match (applied.wrong.is_empty(), applied.is_put_back) {
+    let is_right = applied.wrong.is_empty() && applied.ended.is_none();
+    lines.push(match (is_right, applied.is_put_back) {
         (true, _) => format!("{written} written and read back, {equal} unchanged"),
         (false, true) => "the node has its earlier values".into(),
-        (false, false) => format!("{written} written; see above for what differs"),
+        (false, false) if applied.left.is_empty() => {
+            format!("{written} written; see above for what differs")
+        }
+        (false, false) => "the node has its other earlier values".into(),
     });
     output::print(&lines.join("\n"))
 }

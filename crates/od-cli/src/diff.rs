@@ -9,6 +9,7 @@ use od_tools::compare as device;
 use od_tools::links;
 use od_tools::master::Master;
 
+use crate::bus;
 use crate::failure::Failure;
 use crate::source::{self, Source};
 
@@ -74,7 +75,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 None => links::found::default()?,
             };
             let node = args.node_id.unwrap_or(NodeId::ONE);
-            let mut client = Master::new(links::open(&link)?, node);
+            let mut client = Master::new(bus::opened(&link, None)?, node);
             let found = device::compare(before.dictionary(), &mut client, args.values)?;
             (found, format!("node {node} on {link}"))
         }

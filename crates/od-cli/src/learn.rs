@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use od_model::Visible;
-use od_tools::interrupt::Interruptible;
 use od_tools::learn::record::{Watch, record};
 use od_tools::learn::{Learned, Options, Stored, learn, stored};
 use od_tools::link::Link;
@@ -64,10 +63,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     };
     let link: Box<dyn Link> = match link.strip_prefix("bench:") {
         Some(device) => Box::new(conform::bench(device, Some(args.node))?),
-        None => {
-            let link = links::open(&link)?;
-            Box::new(Interruptible::new(link, bus::stop()?))
-        }
+        None => Box::new(bus::opened(&link, None)?),
     };
     learned(args, link)
 }

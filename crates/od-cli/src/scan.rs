@@ -2,7 +2,7 @@
 
 use od_model::Visible;
 use od_tools::link::Link;
-use od_tools::scan::{self, FoundNode, Scan, ScanTimes};
+use od_tools::scan::{self, FoundNode, Scan, ScanTimes, SdoFault};
 use od_wire::Duration;
 use serde_json::{Value, json};
 
@@ -175,8 +175,17 @@ fn title(one: &FoundNode) -> String {
             parts.push(format!("{what} {}", Visible(text)));
         }
     }
-    if one.is_wrong {
-        parts.push("its SDO responses do not belong to the requests".into());
+    if let Some(fault) = one.fault {
+        parts.push(
+            match fault {
+                SdoFault::OtherObject => "its SDO responses do not belong to the requests",
+                SdoFault::TooShort => "its SDO responses are shorter than 8 bytes",
+                SdoFault::Once => {
+                    "responds to the first SDO request only: it is too slow, or another node uses its CAN-ID"
+                }
+            }
+            .into(),
+        );
     } else if !one.answers {
         parts.push("does not respond to SDO requests".into());
     } else if one.device_type.is_none() && parts.is_empty() {
@@ -194,7 +203,7 @@ fn report(scan: &Scan, rate: Option<u16>, names: &Names) -> Value {
             "state": one.state.map(|state| state.name()),
             "booted": one.has_booted,
             "sdo": one.answers,
-            "sdo_wrong": one.is_wrong,
+            "sdo_wrong": one.fault.is_some(),
             "device_type": one.device_type,
             "vendor_id": vendor,
             "product_code": product,

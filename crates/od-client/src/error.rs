@@ -112,7 +112,10 @@ impl fmt::Display for Error {
             } => write!(f, "the LSS slave responds with specific error {specific}"),
             Self::Refused { error, .. } => write!(f, "the LSS slave responds with error {error}"),
             Self::InvalidNodeId(node) => {
-                write!(f, "the LSS slave responds with node ID {node}, which is not valid")
+                write!(
+                    f,
+                    "the LSS slave responds with node ID {node}, which is not valid"
+                )
             }
             Self::ScanFailed => {
                 f.write_str("no LSS slave confirms the LSS address that fastscan found")

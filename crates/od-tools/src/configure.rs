@@ -25,8 +25,8 @@ pub struct Setting {
 pub struct Wrong {
     /// The wanted value.
     pub setting: Setting,
-    /// The actual value, or the SDO abort code.
-    pub found: Result<Vec<u8>, u32>,
+    /// The actual value, or the reason why the transfer failed: an abort, or a violation of the protocol.
+    pub found: Result<Vec<u8>, Error>,
 }
 
 /// Result of [`apply`].
@@ -40,8 +40,10 @@ pub struct Applied {
     pub wrong: Vec<Wrong>,
     /// Whether all written values were restored.
     pub is_put_back: bool,
-    /// Values that could not be restored.
+    /// Values that could not be restored, or of which it is not known.
     pub left: Vec<Address>,
+    /// The reason why the node got no more values: it does not respond any more, or the user stopped the program.
+    pub ended: Option<Error>,
 }
 
 /// The values that make up the configuration of a node: all that can be read and written, except
@@ -58,11 +60,10 @@ pub fn addresses(dictionary: Dictionary<'_>) -> Vec<Address> {
     entries.map(|entry| entry.address).collect()
 }
 
-/// An address with its value, or with the SDO abort code.
-pub type Read = (Address, Result<Vec<u8>, u32>);
+/// An address with its value, or with the reason why the transfer failed: an abort, or a violation of the protocol.
+pub type Read = (Address, Result<Vec<u8>, Error>);
 
-/// Reads these values; a value that the node refuses is its SDO abort code. `progress` receives the
-/// percentage done.
+/// Reads these values. `progress` receives the percentage done.
 ///
 /// # Errors
 /// The node does not respond, or the link is lost.
@@ -74,16 +75,16 @@ pub fn read(
     let mut values = Vec::new();
     for (at, address) in addresses.iter().enumerate() {
         progress((100 * at / addresses.len()) as u8);
-        values.push((*address, Error::or_abort(master.upload(*address))?));
+        values.push((*address, Error::or_failed(master.upload(*address))?));
     }
     Ok(values)
 }
 
 /// Writes values that differ, and reads them back. PDOs are not valid while their mapping changes.
-/// If the node refuses a value or the program is interrupted, the written values are restored.
+/// If the transfer of a value fails or the program is interrupted, the written values are restored.
 ///
 /// # Errors
-/// The node does not respond, or the link is lost; the node may then have some of the new values.
+/// The node does not respond, or the link is lost, before the first or after the last value is written.
 pub fn apply(
     master: &mut Master<impl Link>,
     settings: &[Setting],
@@ -123,34 +124,28 @@ pub fn apply(
             .flatten()
         {
             if !old.0.contains_key(&address)
-                && let Ok(bytes) = Error::or_abort(master.upload(address))?
+                && let Ok(bytes) = Error::or_failed(master.upload(address))?
             {
                 old.0.insert(address, bytes);
             }
         }
     }
     applied.written = new.0.len();
-    let refused = match new.write(master) {
-        Ok(None) => None,
-        Ok(Some(refused)) => Some(Ok(refused)),
-        Err(fault) => Some(Err(fault)),
-    };
-    if let Some(refused) = refused {
-        master.link().resume();
-        let put_back = old.write(master);
-        let fault = match refused {
-            Ok(refused) => {
-                applied.wrong.push(refused);
-                None
+    match new.write(master) {
+        Ok(None) => {}
+        stopped => {
+            master.link().resume();
+            match old.write(master) {
+                Ok(None) => applied.is_put_back = true,
+                Ok(Some(left)) => applied.left.push(left.setting.address),
+                Err(_) => applied.left = old.0.into_keys().collect(),
             }
-            Err(fault) => Some(fault),
-        };
-        match (put_back, fault) {
-            (Ok(None), None) => applied.is_put_back = true,
-            (Ok(Some(left)), None) => applied.left.push(left.setting.address),
-            (Err(fault), None) | (_, Some(fault)) => return Err(fault),
+            match stopped {
+                Ok(refused) => applied.wrong.extend(refused),
+                Err(ended) => applied.ended = Some(ended),
+            }
+            return Ok(applied);
         }
-        return Ok(applied);
     }
     let written: Vec<Address> = new.0.keys().copied().collect();
     for (address, found) in read(master, &written, |percent| progress(50 + percent / 2))? {
@@ -162,7 +157,7 @@ pub fn apply(
     Ok(applied)
 }
 
-fn wrong(address: Address, bytes: Vec<u8>, found: Result<Vec<u8>, u32>) -> Wrong {
+fn wrong(address: Address, bytes: Vec<u8>, found: Result<Vec<u8>, Error>) -> Wrong {
     let setting = Setting { address, bytes };
     Wrong { setting, found }
 }
@@ -179,7 +174,7 @@ fn pdo(address: Address) -> Option<u16> {
     }
 }
 
-/// The address and abort code of a value that the node refuses; `None` if it accepts all.
+/// A value whose transfer fails; `None` if the node accepts all.
 type Refused = Option<Wrong>;
 
 impl Values {
@@ -207,9 +202,9 @@ impl Values {
             let mut refused = Vec::new();
             let mut first = None;
             for (address, bytes) in &waiting {
-                if let Err(code) = Error::or_abort(master.download(**address, bytes))? {
+                if let Err(failed) = Error::or_failed(master.download(**address, bytes))? {
                     refused.push((*address, *bytes));
-                    first.get_or_insert(wrong(**address, bytes.to_vec(), Err(code)));
+                    first.get_or_insert(wrong(**address, bytes.to_vec(), Err(failed)));
                 }
             }
             if refused.is_empty() {
@@ -234,13 +229,13 @@ impl Values {
         let (cob_id, mapping) = (Address::new(index, 1), index + 0x200);
         let count = Address::new(mapping, 0);
         let put = |master: &mut Master<_>, address: Address, bytes: &[u8]| {
-            let done = Error::or_abort(master.download(address, bytes))?;
+            let done = Error::or_failed(master.download(address, bytes))?;
             Ok::<_, Error>(
                 done.err()
-                    .map(|code| wrong(address, bytes.to_vec(), Err(code))),
+                    .map(|failed| wrong(address, bytes.to_vec(), Err(failed))),
             )
         };
-        let before = Error::or_abort(master.upload(cob_id))?;
+        let before = Error::or_failed(master.upload(cob_id))?;
         let last = self.0.get(&cob_id).cloned().or(before.clone().ok());
         if let Ok(Ok(raw)) = before.as_deref().map(<[u8; 4]>::try_from) {
             let raw = u32::from_le_bytes(raw) | NOT_VALID;
@@ -250,7 +245,7 @@ impl Values {
         if self.0.keys().any(|address| address.index == mapping) {
             let last = match self.0.get(&count) {
                 Some(count) => Some(count.clone()),
-                None => Error::or_abort(master.upload(count))?.ok(),
+                None => Error::or_failed(master.upload(count))?.ok(),
             };
             let entries = self
                 .0

@@ -40,6 +40,18 @@ pub enum Error {
 }
 
 impl Error {
+    /// Splits the failures of one object, after which a node may serve its other objects, from the other errors.
+    ///
+    /// # Errors
+    /// All but [`Error::Abort`] and [`Error::Protocol`].
+    pub fn or_failed<T>(result: Result<T, Self>) -> Result<Result<T, Self>, Self> {
+        match result {
+            Ok(done) => Ok(Ok(done)),
+            Err(failed @ (Self::Abort(_) | Self::Protocol(_))) => Ok(Err(failed)),
+            Err(other) => Err(other),
+        }
+    }
+
     /// Splits the abort codes from the other errors, for a program that continues after an abort.
     ///
     /// # Errors

@@ -21,6 +21,7 @@ pub mod objects;
 pub mod replay;
 pub mod scan;
 pub mod tap;
+pub mod tpdos;
 pub mod watch;
 
 pub use error::Error;

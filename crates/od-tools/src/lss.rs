@@ -4,7 +4,7 @@ use od_client::lss::{Answer, Identity, Options, Task};
 use od_client::{Client, Event, sdo, watch};
 use od_wire::lss::Part;
 use od_wire::nmt::State;
-use od_wire::{Duration, Frame, Instant, NodeId, lss};
+use od_wire::{CanId, Duration, Frame, Instant, NodeId, lss};
 
 use crate::error::Error;
 use crate::link::Link;
@@ -18,6 +18,16 @@ const SECOND: u64 = 50;
 /// Times that a step of fastscan waits for a response, in ms. A missing response is a result, too,
 /// so a late response makes the search wrong; it then begins again with the next time.
 const PACES: [u64; 3] = [50, 200, 800];
+
+/// Maximum number of slaves: one for each node ID.
+const SLAVES: usize = 127;
+/// Value of `bit` in the first request of a fastscan.
+const BEGIN: u8 = 0x80;
+/// Error text for a slave that fastscan cannot find.
+const CONFIRMS_ALL: &str = "an LSS slave confirms each request of the fastscan, also with a vendor-ID that no device has; \
+    connect the devices one after the other to find it";
+/// Error text for slaves without end.
+const TOO_MANY: &str = "the fastscan finds more than 127 LSS slaves; one of them shows another LSS address in each search";
 
 /// An LSS master on a link. When it is dropped, it switches all slaves to LSS waiting state.
 #[derive(Debug)]
@@ -50,7 +60,7 @@ impl<L: Link> Lss<L> {
     /// ends with one more search that waits as long.
     ///
     /// # Errors
-    /// The link is lost, or a slave responds but never confirms its LSS address.
+    /// The link is lost, a slave responds but never confirms its LSS address, or one confirms each request.
     pub fn scan(&mut self, mut found: impl FnMut(&Identity)) -> Result<Vec<Identity>, Error> {
         let mut told = Vec::new();
         let mut all = Vec::new();
@@ -63,8 +73,17 @@ impl<L: Link> Lss<L> {
             let spoilt = loop {
                 match self.ask(Task::Fastscan)? {
                     Ok(Answer::Found(Some(identity))) => {
+                        if self.confirms_another(identity, pace)? {
+                            if paces.peek().is_some() {
+                                break true;
+                            }
+                            return Err(Error::Node(CONFIRMS_ALL.into()));
+                        }
                         if all.contains(&identity) {
                             return Err(Error::Node(twice(identity)));
+                        }
+                        if all.len() == SLAVES {
+                            return Err(Error::Node(TOO_MANY.into()));
                         }
                         if !told.contains(&identity) {
                             found(&identity);
@@ -86,6 +105,33 @@ impl<L: Link> Lss<L> {
         self.client = master(PACES[0]);
         self.wait_all()?;
         Ok(all)
+    }
+
+    /// Returns whether a slave confirms a vendor-ID that no slave has: the opposite of the one that was found. Such a slave
+    /// confirms everything, and a fastscan would find LSS addresses without end.
+    fn confirms_another(&mut self, found: Identity, pace: u64) -> Result<bool, Error> {
+        let mut is_confirmed = false;
+        for (number, bit) in [(0, BEGIN), (!found.vendor, 0)] {
+            let (part, next) = (0, 0);
+            let request = lss::Request::Fastscan {
+                number,
+                bit,
+                part,
+                next,
+            };
+            let id = CanId::standard(lss::MASTER);
+            self.link.send(&Frame::full(id, request.emit()))?;
+            // Slaves without a node ID respond to the first request.
+            is_confirmed = false;
+            let until = self.link.now().plus_millis(pace);
+            while let Some(heard) = self.link.receive(until)? {
+                is_confirmed |= heard.frame.id().as_standard() == Some(lss::SLAVE);
+                if heard.at > until {
+                    break;
+                }
+            }
+        }
+        Ok(is_confirmed)
     }
 
     /// Sets the node ID of a slave, stores it if `store`, and waits for the boot-up message. A slave that had a node ID
@@ -269,7 +315,7 @@ impl<L: Link> Drop for Lss<L> {
         // impossible.
         let configuration = false;
         let request = lss::Request::SwitchGlobal { configuration };
-        let id = od_wire::CanId::standard(lss::MASTER);
+        let id = CanId::standard(lss::MASTER);
         let _ = self.link.send(&Frame::full(id, request.emit()));
     }
 }

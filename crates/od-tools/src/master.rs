@@ -19,7 +19,7 @@ const OPTIONS: Options = Options::DEFAULT;
 const WHOLE: Duration = Duration::from_secs(60);
 
 /// Number of attempts of a read if a response to another request arrives.
-const TRIES: u8 = 3;
+pub(crate) const TRIES: u8 = 3;
 
 /// Time in which frames that arrived before a request are discarded, in ms.
 const DRAIN: u64 = 20;
@@ -36,6 +36,11 @@ pub struct Master<L> {
     types: BTreeMap<Address, DataType>,
     /// Time limit of each whole transfer; `None`: [`WHOLE`] for uploads, except of a DOMAIN.
     whole: Option<Duration>,
+}
+
+/// Returns whether the response is to an earlier request, or to another program: the read can be repeated.
+pub(crate) fn is_for_another<T>(result: &Result<T, od_client::Error>) -> bool {
+    matches!(result, Err(od_client::Error::OutOfTurn { .. }))
 }
 
 /// Returns whether an address is that of a VAR of the standard.
@@ -112,8 +117,7 @@ impl<L: Link> Master<L> {
                 }
             };
             tries -= 1;
-            // A response to an earlier request, or to another program: the read can be repeated.
-            if !matches!(result, Err(od_client::Error::OutOfTurn { .. })) || tries == 0 {
+            if !is_for_another(&result) || tries == 0 {
                 return self.outcome(address, data_type, result);
             }
         }

@@ -42,6 +42,17 @@ impl Default for ScanTimes {
     }
 }
 
+/// A fault of the SDO responses that a scan receives from a node.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SdoFault {
+    /// They are for other objects than those of the requests.
+    OtherObject,
+    /// They are shorter than 8 bytes (CiA 301, chapter 7.2.4.3.1).
+    TooShort,
+    /// Only the first request has a response: the node is too slow or gone, or another node uses its CAN-ID.
+    Once,
+}
+
 /// A node that was found.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct FoundNode {
@@ -53,8 +64,8 @@ pub struct FoundNode {
     pub has_booted: bool,
     /// Whether it responds to SDO requests; in Stopped it does not.
     pub answers: bool,
-    /// Its SDO responses are for other objects than those of the requests, or shorter than 8 bytes.
-    pub is_wrong: bool,
+    /// The fault of its SDO responses, if they have one.
+    pub fault: Option<SdoFault>,
     /// 1000h, device type.
     pub device_type: Option<u32>,
     /// 1018h: vendor-ID, product code, revision number, serial number.
@@ -80,8 +91,8 @@ struct Heard {
     states: BTreeMap<NodeId, State>,
     boot_ups: BTreeSet<NodeId>,
     answers: BTreeMap<NodeId, Vec<[u8; 8]>>,
-    /// Nodes whose SDO responses do not belong to the request.
-    wrong: BTreeSet<NodeId>,
+    /// The faults of SDO responses.
+    faults: BTreeMap<NodeId, SdoFault>,
     /// Index and sub-index of the requests, as in a frame: a response to an earlier request is ignored.
     asked: [u8; 3],
     has_unconfigured: bool,
@@ -147,9 +158,11 @@ pub fn scan(
     for node in heard.states.keys().chain(&heard.boot_ups) {
         found.entry(*node).or_insert_with(|| FoundNode::new(*node));
     }
-    for node in &heard.wrong {
-        let one = found.entry(*node).or_insert_with(|| FoundNode::new(*node));
-        one.is_wrong = !one.answers;
+    for (node, fault) in heard.faults {
+        let one = found.entry(node).or_insert_with(|| FoundNode::new(node));
+        if !one.answers {
+            one.fault = Some(fault);
+        }
     }
     for (node, one) in &mut found {
         one.state = heard.states.get(node).copied();
@@ -168,7 +181,7 @@ impl FoundNode {
             state: None,
             has_booted: false,
             answers: false,
-            is_wrong: false,
+            fault: None,
             device_type: None,
             identity: [None; 4],
             texts: [None, None, None],
@@ -180,7 +193,12 @@ impl FoundNode {
     fn read(&mut self, link: &mut impl Link) -> Result<(), Error> {
         let mut master = Master::new(link, self.node).within(TEXT);
         for (part, sub) in self.identity.iter_mut().zip(1..=3) {
-            *part = optional(master.upload(Address::new(0x1018, sub)))?.and_then(|bytes| {
+            let read = master.upload(Address::new(0x1018, sub));
+            if matches!(read, Err(Error::Node(_))) && !master.is_alive()? {
+                self.fault = Some(SdoFault::Once);
+                return Ok(());
+            }
+            *part = optional(read)?.and_then(|bytes| {
                 let bytes = bytes.as_slice().try_into().ok()?;
                 Some(u32::from_le_bytes(bytes))
             });
@@ -274,11 +292,13 @@ impl Heard {
             && self.asked != [0; 3]
         {
             let [_, low, high, sub, ..] = *frame.bytes();
-            if frame.dlc() == 8 && [low, high, sub] == self.asked {
+            if frame.dlc() < 8 {
+                self.faults.insert(node, SdoFault::TooShort);
+            } else if [low, high, sub] == self.asked {
                 self.answers.entry(node).or_default().push(*frame.bytes());
             } else if u16::from_le_bytes([low, high]) != DEVICE_TYPE.index {
                 // A late response to the request for 1000h is not wrong.
-                self.wrong.insert(node);
+                self.faults.insert(node, SdoFault::OtherObject);
             }
         }
     }

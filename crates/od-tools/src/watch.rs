@@ -3,11 +3,12 @@
 use od_client::{Client, Event, Job, pdo};
 use od_model::typed::MapEntry;
 use od_model::{Address, DataType, TransmissionType};
-use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
+use od_wire::{CanId, Duration, Frame, Instant, NodeId};
 
 use crate::error::Error;
 use crate::link::Link;
-use crate::master::Master;
+use crate::master::{Master, TRIES, is_for_another};
+use crate::tpdos;
 
 /// A value that is mapped into a TPDO is polled if no TPDO arrives for this time: the node may not be Operational.
 const GRACE: Duration = Duration::from_secs(1);
@@ -66,29 +67,13 @@ pub fn sources(
         data_type: None,
     };
     let mut found: Vec<Source> = addresses.iter().map(polled).collect();
-    for (number, index) in (1..).zip(0x1800..=0x19FF_u16) {
-        let cob_id = match read(master, index, 1)? {
-            // TPDOs after a gap, or after one that cannot be read, are rare, and reading all 512 takes seconds.
-            Err(_) if number > 4 => break,
-            read => number_of(read),
-        };
-        let cob_id = cob_id.map(CobId::new).filter(|cob_id| cob_id.is_valid());
-        let Some(id) = cob_id.map(CobId::can_id) else {
-            continue;
-        };
-        let kind = number_of(read(master, index, 2)?);
-        let kind = kind
-            .and_then(|kind| u8::try_from(kind).ok())
-            .map(TransmissionType::new);
-        if kind.is_some_and(TransmissionType::is_rtr_only) {
+    for tpdo in tpdos::read(|address| number(master, address))? {
+        if tpdo.transmission.is_some_and(TransmissionType::is_rtr_only) {
             // The TPDO is sent on request only.
             continue;
         }
-        let mapping = index + 0x200;
-        let count = number_of(read(master, mapping, 0)?).unwrap_or(0);
         let mut first = 0_u32;
-        for sub in 1..=count.min(64) as u8 {
-            let raw = number_of(read(master, mapping, sub)?).unwrap_or(0);
+        for raw in tpdo.mapping {
             let MapEntry { address, bits } = MapEntry::parse(raw);
             let here = found
                 .iter_mut()
@@ -96,11 +81,10 @@ pub fn sources(
             if let Some(source) = here
                 && first + u32::from(bits) <= 64
             {
-                let first = first as u8;
                 source.by = By::Pdo {
-                    number,
-                    id,
-                    first,
+                    number: tpdo.number,
+                    id: tpdo.id,
+                    first: first as u8,
                     bits,
                 };
             }
@@ -110,24 +94,19 @@ pub fn sources(
     Ok(found)
 }
 
-/// A parameter of a TPDO, or an abort code. A parameter in whose transfer the node violates the protocol is not known: the
-/// value is then read by SDO.
-fn read(
-    master: &mut Master<impl Link>,
-    index: u16,
-    sub: u8,
-) -> Result<Result<Vec<u8>, u32>, Error> {
-    match master.upload(Address::new(index, sub)) {
-        Err(Error::Protocol(_)) => Ok(Err(AbortCode::General.code())),
-        read => Error::or_abort(read),
-    }
-}
-
-fn number_of(read: Result<Vec<u8>, u32>) -> Option<u32> {
-    let bytes = read.ok().filter(|bytes| bytes.len() <= 4)?;
-    let mut wide = [0; 4];
-    wide[..bytes.len()].copy_from_slice(&bytes);
-    Some(u32::from_le_bytes(wide))
+/// A parameter of a TPDO. One in whose transfer the node violates the protocol is not known: the value is then read by SDO.
+fn number(master: &mut Master<impl Link>, address: Address) -> Result<Option<u32>, Error> {
+    let bytes = match master.upload(address) {
+        Err(Error::Protocol(_) | Error::Abort(_)) => return Ok(None),
+        read => read?,
+    };
+    let number = |bytes: &[u8]| {
+        bytes
+            .iter()
+            .rev()
+            .fold(0, |number, byte| number << 8 | u32::from(*byte))
+    };
+    Ok((bytes.len() <= 4).then(|| number(&bytes)))
 }
 
 /// The value in the data of its TPDO; `None` if the frame is too short.
@@ -180,6 +159,8 @@ fn follow(
 ) -> Result<(), Error> {
     // Time of the next request for the value; `None` while a response is due.
     let mut due = vec![Some(link.now()); sources.len()];
+    // Number of attempts to read the value.
+    let mut tries = vec![0; sources.len()];
     loop {
         let now = link.now();
         if now > until {
@@ -207,6 +188,12 @@ fn follow(
             };
             let (_, source) = jobs.swap_remove(place);
             let at = link.now();
+            tries[source] += 1;
+            if is_for_another(&value) && tries[source] < TRIES {
+                due[source] = Some(at);
+                continue;
+            }
+            tries[source] = 0;
             let pause = match sources[source].by {
                 By::Poll => every,
                 By::Pdo { .. } => every.max(GRACE),

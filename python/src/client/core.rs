@@ -9,10 +9,11 @@ use od_client::{Client, Event, Job, lss, nmt, watch};
 use od_model::{Address, DataType};
 use od_tools::Error;
 use od_tools::link::{Heard, Link};
+use od_tools::tpdos;
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, Instant, NodeId};
 
-use crate::client::known::{Known, Tpdo, can_id};
+use crate::client::known::{Known, Tpdo};
 use crate::client::link::Line;
 
 /// Maximum number of PDOs and EMCY messages that wait for the caller; the oldest ones are dropped.
@@ -99,40 +100,24 @@ impl Core {
         &mut self,
         node: NodeId,
     ) -> Result<Result<Vec<u16>, (Address, od_client::Error)>, Error> {
-        let mut found = Vec::new();
-        for number in 0..0x200_u16 {
-            let cob_id = match self.number(node, Address::new(0x1800 + number, 1))? {
-                Ok(Some(cob_id)) => cob_id,
-                // TPDOs after a gap are rare, and reading all 512 takes seconds.
-                Ok(None) if number > 3 => break,
-                Ok(None) => continue,
-                Err(error) => return Ok(Err(error)),
-            };
-            let Some(id) = can_id(cob_id) else {
-                continue;
-            };
-            let mapped = 0x1A00 + number;
-            let count = match self.number(node, Address::new(mapped, 0))? {
-                Ok(count) => count.unwrap_or(0).min(64) as u8,
-                Err(error) => return Ok(Err(error)),
-            };
-            let mut mapping = Vec::new();
-            for sub in 1..=count {
-                match self.number(node, Address::new(mapped, sub))? {
-                    Ok(entry) => mapping.extend(entry),
-                    Err(error) => return Ok(Err(error)),
-                }
-            }
-            found.push(Tpdo {
-                node: node.raw(),
-                number: number + 1,
-                id,
-                mapping,
-            });
-        }
+        let found = tpdos::read(|address| match self.number(node, address) {
+            Ok(Ok(number)) => Ok(number),
+            Ok(Err(failed)) => Err(Ok(failed)),
+            Err(error) => Err(Err(error)),
+        });
+        let found = match found {
+            Ok(found) => found,
+            Err(Ok(failed)) => return Ok(Err(failed)),
+            Err(Err(error)) => return Err(error),
+        };
         let numbers = found.iter().map(|one| one.number).collect();
         self.tpdos.retain(|one| one.node != node.raw());
-        self.tpdos.extend(found);
+        self.tpdos.extend(found.into_iter().map(|one| Tpdo {
+            node: node.raw(),
+            number: one.number,
+            id: one.id,
+            mapping: one.mapping,
+        }));
         Ok(Ok(numbers))
     }
 

@@ -69,7 +69,7 @@ impl Known {
 }
 
 /// The CAN-ID of a COB-ID; `None` if the PDO is not valid.
-pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
+fn can_id(cob_id: u32) -> Option<CanId> {
     let cob_id = CobId::new(cob_id);
     cob_id.is_valid().then(|| cob_id.can_id())
 }

@@ -61,9 +61,7 @@ impl Args {
 
     /// Like [`open`](Self::open), at another bit rate.
     pub(crate) fn open_at(&self, kbit: Option<u16>) -> Result<Bus, Failure> {
-        let name = self.name()?;
-        let link = links::open_at(&name, kbit)?;
-        Ok(Interruptible::new(link, stop()?))
+        opened(&self.name()?, kbit)
     }
 
     /// The link's name.
@@ -73,6 +71,12 @@ impl Args {
             None => links::found::default()?,
         })
     }
+}
+
+/// Opens the bus of this name. Ctrl-C ends each wait on it, and the transfer that is open.
+pub(crate) fn opened(name: &str, kbit: Option<u16>) -> Result<Bus, Failure> {
+    let link = links::open_at(name, kbit)?;
+    Ok(Interruptible::new(link, stop()?))
 }
 
 /// Set by Ctrl-C.

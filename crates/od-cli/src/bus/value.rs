@@ -64,7 +64,6 @@ impl Shown {
     /// The value in words, or the abort.
     pub(crate) fn text(&self) -> String {
         match &self.result {
-            Ok((_, bytes)) if bytes.is_empty() => "empty".into(),
             Ok(_) => self.words.clone(),
             Err(_) if self.has_no_data() => "no data".into(),
             Err(NoValue::Abort(code)) => abort(*code),
@@ -107,6 +106,9 @@ pub(crate) fn words(
     data_type: DataType,
     bytes: &[u8],
 ) -> String {
+    if bytes.is_empty() {
+        return "empty".into();
+    }
     let shown = values::show(data_type, bytes);
     match meaning(dictionary, address, data_type, bytes) {
         Some(meaning) => format!("{shown}: {meaning}"),

@@ -25,7 +25,10 @@ use crate::{record, source};
 /// Watch values of a node, until Ctrl-C
 ///
 /// Values that a valid TPDO maps come from it; others are polled by SDO, as are those of a node that
-/// sends no TPDOs for a second. A terminal shows a plot, a pipe gets a line for each value.
+/// sends no TPDOs for a second. A terminal shows a plot, a pipe gets a line for each value. The reason why a value
+/// cannot be read is one line until it changes; JSON and CSV have a line for each attempt.
+///
+/// Exit code 0: all values were read; 1: at least one could not be read.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID
@@ -69,6 +72,8 @@ struct Shown {
     place: String,
     name: String,
     data_type: Option<DataType>,
+    /// The reason why the last attempt to read it failed.
+    error: Option<od_client::Error>,
 }
 
 impl Shown {
@@ -105,12 +110,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         source.data_type = one.entry.map(|entry| entry.data_type);
     }
     drop(master);
-    let shown: Vec<Shown> = asked
+    let mut shown: Vec<Shown> = asked
         .iter()
         .map(|one| Shown {
             place: objects::place(dictionary, one.address),
             name: objects::name(dictionary, one.entry.as_ref()),
             data_type: one.entry.map(|entry| entry.data_type),
+            error: None,
         })
         .collect();
     for (one, source) in shown.iter().zip(&sources) {
@@ -147,11 +153,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let until = record::end(&bus, args.time);
     let mut told = 0;
     let mut failed = None;
+    let mut is_whole = true;
     let mut tell = |sample: &Sample| -> Result<bool, Failure> {
         if sample.at > until {
             return Ok(false);
         }
-        let (one, source) = (&shown[sample.source], &sources[sample.source]);
+        is_whole &= sample.value.is_ok();
+        let (one, source) = (&mut shown[sample.source], &sources[sample.source]);
         let goes_on = show(&mut sink, file.as_mut(), one, source, sample, dictionary)?;
         told += 1;
         Ok(goes_on && args.count.is_none_or(|count| told < count))
@@ -169,7 +177,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     match (failed, watched) {
         (Some(failure), _) => Err(failure),
-        (None, Ok(()) | Err(Error::Interrupted)) => Ok(()),
+        (None, Ok(()) | Err(Error::Interrupted)) if is_whole => Ok(()),
+        (None, Ok(()) | Err(Error::Interrupted)) => Err(Failure::Reported(1)),
         (None, Err(fault)) => Err(fault.into()),
     }
 }
@@ -178,7 +187,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 fn show(
     sink: &mut Sink,
     file: Option<&mut BufWriter<File>>,
-    one: &Shown,
+    one: &mut Shown,
     source: &Source,
     sample: &Sample,
     dictionary: Option<Dictionary<'_>>,
@@ -209,12 +218,15 @@ fn show(
     if let Some(file) = file {
         writeln!(file, "{}", row())?;
     }
+    let error = sample.value.as_ref().err().copied();
+    let is_repeated = error.is_some() && one.error == error;
     let goes_on = match sink {
         Sink::Plot(plot) => {
             let number = plain.as_ref().and_then(|(_, value)| value.as_f64());
             plot.add(sample.source, sample.at, text, number);
             return Ok(true);
         }
+        Sink::Lines(_) if is_repeated => true,
         Sink::Lines(output) => {
             output.line(&format!("{at:>12}  {}  {text}", one.title()))?;
             output.flush()?
@@ -225,17 +237,17 @@ fn show(
         }
         Sink::Json(output) => {
             let value = plain.as_ref().map(|(_, value)| value);
-            let error = sample.value.as_ref().err().map(ToString::to_string);
             let line = json!({
                 "time": micros as f64 / 1e6,
                 "object": one.place,
                 "name": one.name,
                 "value": value,
-                "error": error,
+                "error": error.map(|error| error.to_string()),
             });
             output.line(&line.to_string())?;
             output.flush()?
         }
     };
+    one.error = error;
     Ok(goes_on)
 }

@@ -71,7 +71,7 @@ fn a_node_that_boots_during_a_transfer_is_not_silent() {
         }
         let read = Event::Read(job, Err(Error::Booted));
         let all = events(&mut client);
-            assert!(all.contains(&read), "{last:?}: {all:?}");
+        assert!(all.contains(&read), "{last:?}: {all:?}");
         assert_eq!(out(&mut client, 1001).concat(), sent, "{last:?}");
         // It has served its requests since then.
         let next = client.read(node(1), OBJECT);

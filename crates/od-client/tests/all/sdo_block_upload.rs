@@ -3,8 +3,8 @@
 
 use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
 use crate::support::{Machine, at, frame, pattern, upload};
-use od_client::{CanId, Error, Frame};
 use od_client::sdo::{Expected, Upload};
+use od_client::{CanId, Error, Frame};
 
 /// A block upload of `len` bytes after its start: blocks of four segments, with CRC.
 #[track_caller]

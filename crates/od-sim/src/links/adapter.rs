@@ -98,6 +98,10 @@ impl Adapter {
         match line {
             [] => self.answer(is_right),
             [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Message::Nothing,
+            // A frame of CAN FD, which no CANopen node sends.
+            [b'd' | b'D' | b'b' | b'B', rest @ ..] if rest.iter().all(u8::is_ascii_hexdigit) => {
+                Message::Nothing
+            }
             // The end of a line whose beginning another reader received.
             _ if !self.is_open => Message::Nothing,
             line => Message::Noise(line.to_vec()),
@@ -191,6 +195,13 @@ mod tests {
         assert_eq!(
             messages(&mut adapter, b"05\rz\r\x07"),
             [boot, Message::Nothing, Message::Refused]
+        );
+        for fd in [&b"d18581112131415161718\r"[..], b"B000001239AABBCCDD\r"] {
+            assert_eq!(messages(&mut adapter, fd), [Message::Nothing]);
+        }
+        assert_eq!(
+            messages(&mut adapter, b"dx\r"),
+            [Message::Noise(b"dx".to_vec())]
         );
         let long = [b'x'; 2 * LONGEST];
         assert_eq!(messages(&mut adapter, &long), []);

@@ -41,7 +41,8 @@ pub struct Learned {
 /// Reads all objects from 1000h to 9FFFh; `told` is called with each index that is a multiple of 1000h.
 ///
 /// # Errors
-/// The link is lost, or the node stops responding, or does not respond to eight objects in a row, before all objects are read.
+/// The link is lost, or the node stops responding, does not respond to eight objects in a row, or violates the protocol
+/// in the transfers of 64 values in a row, before all objects are read.
 pub fn learn(
     link: impl Link,
     node: NodeId,

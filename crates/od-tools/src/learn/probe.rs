@@ -90,10 +90,16 @@ pub(super) struct Probe<L> {
     pub(super) faults: Vec<String>,
     /// Number of objects in a row without a response.
     silent: u8,
+    /// Number of values in a row in whose transfer the node violates the protocol.
+    wrong: u8,
 }
 
 /// Number of objects in a row without a response after which a node is not asked for more.
 const SILENT: u8 = 8;
+
+/// Number of values in a row in whose transfer a node violates the protocol after which it is not asked for more. With
+/// short responses to all requests, it would seem to have 36,864 objects.
+const WRONG: u8 = 64;
 
 impl<L: Link> Probe<L> {
     pub(super) fn new(link: L, node: NodeId) -> Self {
@@ -105,6 +111,7 @@ impl<L: Link> Probe<L> {
             ignores_sub: None,
             faults: Vec::new(),
             silent: 0,
+            wrong: 0,
         }
     }
 
@@ -113,6 +120,10 @@ impl<L: Link> Probe<L> {
     pub(super) fn read(&mut self, address: Address) -> Result<There, Error> {
         let read = match self.master.upload(address) {
             Err(Error::Protocol(why)) => {
+                self.wrong += 1;
+                if self.wrong == WRONG {
+                    return Err(Error::Protocol(why));
+                }
                 self.faults
                     .push(format!("{why}; the file has the object without its value"));
                 return Ok(There::Value(FoundObject {
@@ -140,7 +151,7 @@ impl<L: Link> Probe<L> {
             }
             read => Error::or_abort(read)?,
         };
-        self.silent = 0;
+        (self.silent, self.wrong) = (0, 0);
         let (bytes, is_write_only) = match read {
             Ok(bytes) => (Some(bytes), false),
             Err(code) if code == NoObject.code() => return Ok(There::NoObject),

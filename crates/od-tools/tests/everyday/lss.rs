@@ -219,3 +219,51 @@ fn a_slave_is_asked_for_its_address_and_node_id() {
     let asked = Lss::new(OnBench(&mut bus)).inquire(Slaves::One(one));
     assert_eq!(asked, Ok((one, NodeId::new(5))));
 }
+
+/// A slave that confirms each request of a fastscan.
+struct ConfirmsAll {
+    now: Instant,
+    waiting: Vec<Heard>,
+}
+
+impl Link for ConfirmsAll {
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        if frame.id().as_standard() == Some(0x7E5) && frame.bytes()[0] == 0x51 {
+            self.waiting.push(Heard {
+                at: self.now.plus_millis(1),
+                frame: Frame::standard(0x7E4, &[0x4F, 0, 0, 0, 0, 0, 0, 0]),
+            });
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        if self.waiting.is_empty() {
+            self.now = self.now.max(until);
+            return Ok(None);
+        }
+        let heard = self.waiting.remove(0);
+        self.now = self.now.max(heard.at);
+        Ok(Some(heard))
+    }
+}
+
+/// A slave responds only if its LSS address fits (CiA 305, chapter 6.7).
+#[test]
+fn a_slave_that_confirms_everything_is_not_found_again_and_again() {
+    let bus = ConfirmsAll {
+        now: Instant::ZERO,
+        waiting: Vec::new(),
+    };
+    let mut told = 0;
+    let found = Lss::new(bus).scan(|_| told += 1);
+    assert!(
+        matches!(&found, Err(Error::Node(why)) if why.contains("confirms each request")),
+        "{found:?}"
+    );
+    assert_eq!(told, 0);
+}

@@ -4,10 +4,11 @@ use od_eds::diff::Field;
 use od_model::Address;
 use od_tools::Error;
 use od_tools::compare::compare;
+use od_tools::configure::{Setting, apply};
 use od_tools::learn::{Options, learn};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
-use od_tools::scan::{ScanTimes, scan};
+use od_tools::scan::{ScanTimes, SdoFault, scan};
 use od_tools::watch::{By, Source, sources, watch};
 use od_wire::{Duration, Frame, Instant};
 
@@ -259,9 +260,9 @@ fn a_node_whose_responses_name_another_object_is_found() {
     let found: Vec<_> = scan
         .nodes
         .iter()
-        .map(|one| (one.node.raw(), one.answers, one.is_wrong))
+        .map(|one| (one.node.raw(), one.answers, one.fault))
         .collect();
-    assert_eq!(found, [(5, false, true)]);
+    assert_eq!(found, [(5, false, Some(SdoFault::OtherObject))]);
 }
 
 /// A server that never indicates the size of an expedited value: 2001h is 1000, an UNSIGNED16.
@@ -286,11 +287,11 @@ fn a_value_without_a_size_is_read_by_its_type() {
     assert_eq!(master.upload(gain), Ok(vec![0xE8, 3]));
     let found = compare(tables.dictionary(), &mut master, false);
     assert_eq!(found, Ok(Vec::new()));
-    let setting = od_tools::configure::Setting {
+    let setting = Setting {
         address: gain,
         bytes: vec![0xE8, 3],
     };
-    let applied = od_tools::configure::apply(&mut master, &[setting], |_| {}).expect("a node");
+    let applied = apply(&mut master, &[setting], |_| {}).expect("a node");
     assert_eq!(
         (applied.equal, applied.written, applied.wrong.len()),
         (1, 0, 0)
@@ -341,4 +342,126 @@ fn a_long_value_is_one_transfer() {
         1,
         "{begins:?}"
     );
+}
+
+#[test]
+fn a_node_that_responds_once_is_told_from_one_that_lacks_its_identity() {
+    let mut requests = 0;
+    let mut once = Slave::new(|request: &[u8; 8]| {
+        requests += 1;
+        (requests <= 2).then(|| about(request, 0x43, [1, 0, 0, 0]))
+    });
+    let found = scan(&mut once, ScanTimes::default(), |_| {}).expect("a link");
+    assert_eq!(found.nodes[0].fault, Some(SdoFault::Once));
+    let mut without = Slave::new(|request: &[u8; 8]| {
+        let index = u16::from_le_bytes([request[1], request[2]]);
+        (index == 0x1000).then(|| about(request, 0x43, [1, 0, 0, 0]))
+    });
+    let found = scan(&mut without, ScanTimes::default(), |_| {}).expect("a link");
+    assert_eq!((found.nodes[0].answers, found.nodes[0].fault), (true, None));
+}
+
+/// To each request a value with the wrong toggle bit: the node would seem to have 36,864 objects.
+#[test]
+fn a_node_that_violates_the_protocol_in_each_transfer_is_not_asked_for_every_object() {
+    let mut slave = Slave::new(|request: &[u8; 8]| match request[0] >> 5 {
+        2 => Some(about(request, 0x41, [20, 0, 0, 0])),
+        3 => Some([0x10, 1, 2, 3, 4, 5, 6, 7]),
+        _ => None,
+    });
+    let made = learn(&mut slave, id(5), Options::default(), |_| {});
+    assert!(matches!(made, Err(Error::Protocol(_))), "{made:?}");
+    assert!(slave.heard.len() < 1000, "{}", slave.heard.len());
+}
+
+/// A node with 2000h to 2002h, which are 1, whose response to a download of 2001h is `to_second`.
+fn kept(
+    values: &mut [u8; 3],
+    request: &[u8; 8],
+    to_second: impl FnOnce(&[u8; 8]) -> Option<[u8; 8]>,
+) -> Option<[u8; 8]> {
+    let at = usize::from(request[1]);
+    match request[0] >> 5 {
+        2 => Some(about(request, 0x4F, [values[at], 0, 0, 0])),
+        1 if at == 1 && request[4] != 1 => to_second(request),
+        1 => {
+            values[at] = request[4];
+            Some(about(request, 0x60, [0; 4]))
+        }
+        _ => None,
+    }
+}
+
+/// The settings 2000h to 2002h = 9.
+fn nines() -> Vec<Setting> {
+    let setting = |at: u16| Setting {
+        address: Address::new(0x2000 + at, 0),
+        bytes: vec![9],
+    };
+    (0..3).map(setting).collect()
+}
+
+#[test]
+fn a_transfer_that_fails_while_a_configuration_is_written_restores_the_earlier_values() {
+    let mut values = [1; 3];
+    let mut slave = Slave::new(|request: &[u8; 8]| {
+        kept(&mut values, request, |request| {
+            let mut other = about(request, 0x60, [0; 4]);
+            other[1] = 0x99;
+            Some(other)
+        })
+    });
+    let applied = apply(&mut Master::new(&mut slave, id(5)), &nines(), |_| {}).expect("a node");
+    assert!(applied.is_put_back && applied.left.is_empty() && applied.ended.is_none());
+    let wrong: Vec<_> = applied
+        .wrong
+        .iter()
+        .map(|one| one.setting.address)
+        .collect();
+    assert_eq!(wrong, [Address::new(0x2001, 0)]);
+    assert!(matches!(applied.wrong[0].found, Err(Error::Protocol(_))));
+    drop(slave);
+    assert_eq!(values, [1; 3]);
+}
+
+#[test]
+fn a_node_that_dies_while_a_configuration_is_written_leaves_its_values_unknown() {
+    let (mut values, mut is_dead) = ([1; 3], false);
+    let mut slave = Slave::new(|request: &[u8; 8]| {
+        let answer = kept(&mut values, request, |_| {
+            is_dead = true;
+            None
+        });
+        answer.filter(|_| !is_dead)
+    });
+    let applied = apply(&mut Master::new(&mut slave, id(5)), &nines(), |_| {}).expect("a node");
+    assert!(matches!(applied.ended, Some(Error::Node(_))), "{applied:?}");
+    assert!(!applied.is_put_back);
+    assert_eq!(applied.left.len(), 3);
+}
+
+#[test]
+fn a_watch_reads_again_after_a_response_to_another_request() {
+    let mut requests = 0;
+    let mut slave = Slave::new(|request: &[u8; 8]| {
+        requests += 1;
+        let mut answer = about(request, 0x4F, [requests, 0, 0, 0]);
+        if requests == 1 {
+            answer[1] ^= 1;
+        }
+        Some(answer)
+    });
+    let source = Source {
+        address: Address::new(0x2000, 0),
+        by: By::Poll,
+        data_type: None,
+    };
+    let until = Instant::ZERO.plus_millis(100);
+    let every = Duration::from_millis(200);
+    let mut samples = Vec::new();
+    let done = watch(&mut slave, id(5), &[source], every, until, |sample| {
+        samples.push(sample.value);
+        true
+    });
+    assert_eq!((done, samples), (Ok(()), vec![Ok(vec![2])]));
 }

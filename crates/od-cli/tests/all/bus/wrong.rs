@@ -121,3 +121,30 @@ fn a_learned_file_says_which_transfer_failed() {
     }
     assert!(comments.contains("Lines=4"), "{comments}");
 }
+
+/// 1017h is read again and again, and the node never responds correctly: one line, and exit code 1.
+#[test]
+fn a_watch_says_once_why_a_value_cannot_be_read_and_fails() {
+    let link = adapter();
+    let watch = [
+        "watch", "5", "1000h", "1017h", "--eds", "gxmm", "--every", "10", "--count", "8", "--link",
+        &link,
+    ];
+    let text = odkit(&watch, "");
+    assert_eq!(text.code, 1, "{}", text.err);
+    let about = |index: &str| {
+        let lines = text.out.lines().filter(|line| line.contains(index));
+        lines.collect::<Vec<_>>()
+    };
+    let wrong = about("1017h");
+    assert!(
+        matches!(wrong[..], [line] if line.contains("toggle")),
+        "{}",
+        text.out
+    );
+    assert!(about("1000h").len() > 1, "{}", text.out);
+    let json = odkit(&[&watch[..], &["--format", "json"]].concat(), "");
+    assert_eq!(json.code, 1, "{}", json.err);
+    let all = json.out.lines().filter(|line| line.contains("toggle"));
+    assert!(all.count() > 1, "{}", json.out);
+}
