@@ -1,8 +1,9 @@
 //! Reasons of this package, as Python exceptions.
 
+use std::io;
 use std::path::Path;
-use std::{fs, io};
 
+use od_sim::serve::files;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
@@ -57,12 +58,12 @@ impl From<Fault> for PyErr {
     }
 }
 
-/// Writes a file.
+/// Writes a file in one step: it has its old content or the new one.
 ///
 /// # Errors
 /// An `OSError` with the path.
 pub(crate) fn write(path: &Path, bytes: impl AsRef<[u8]>) -> PyResult<()> {
-    fs::write(path, bytes).map_err(|error| of_file(&error, path))
+    files::replace(&[(path, bytes.as_ref())]).map_err(|(path, error)| of_file(&error, &path))
 }
 
 /// The exception of an error of the system about a file, as Python itself raises it: number, text and path.

@@ -118,13 +118,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         files::claim(path)?;
     }
     let report = tested(args, &cases)?;
-    for (path, format) in args.report.iter().zip(formats) {
-        output::write(path, format!("{}\n", report.render(format)).as_bytes())?;
-    }
+    // Whatever happens to the files, the result of a long test is shown.
     output::print(&match args.format {
         Shown::Text => report.render(Format::Text),
         Shown::Json => report.render(Format::Json),
     })?;
+    for (path, format) in args.report.iter().zip(formats) {
+        output::write(path, format!("{}\n", report.render(format)).as_bytes())?;
+    }
     if report.is_pass() {
         Ok(())
     } else {

@@ -150,8 +150,10 @@ fn canopen_node(
     let commissioned = description.commissioned_node_id();
     let node_id = args.node_id.map(NodeId::raw).or(commissioned);
     let files = canopennode::write(description, stem, &args.input, node_id);
-    output::write(&output.with_extension("c"), files.source.as_bytes())?;
-    output::write(&output.with_extension("h"), files.header.as_bytes())?;
+    crate::files::write(&[
+        (&output.with_extension("c"), files.source.as_bytes()),
+        (&output.with_extension("h"), files.header.as_bytes()),
+    ])?;
     let lost = source.unexpressed(description, files.findings, lost)?;
     lost.judge(args.lossy)
 }

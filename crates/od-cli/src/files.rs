@@ -1,11 +1,11 @@
 //! The files of this run: an output never replaces a file that the run has read or written.
 
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use od_sim::serve::files::Files;
+use od_sim::serve::files::{self, Files};
 
 use crate::failure::Failure;
 
@@ -25,7 +25,7 @@ fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
 /// The file cannot be read, or the run has written it.
 pub(crate) fn read(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
     let path = path.as_ref();
-    let bytes = fs::read(path)?;
+    let bytes = files::read(path)?;
     let title = format!("the input `{}`", path.display());
     let added = lock(&FILES).read(title, path);
     added.map_err(|refused| io::Error::other(refused.to_string()))?;
@@ -42,7 +42,7 @@ pub(crate) fn read_or_stdin(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
         return read(path);
     }
     let mut bytes = Vec::new();
-    io::stdin().lock().read_to_end(&mut bytes)?;
+    io::Read::read_to_end(&mut io::stdin().lock(), &mut bytes)?;
     Ok(bytes)
 }
 
@@ -57,17 +57,37 @@ pub(crate) fn claim(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes an output, empty.
+/// Makes an output that grows while the command runs, empty.
 ///
 /// # Errors
 /// The run uses this file already, or it cannot be written.
 pub(crate) fn create(path: &Path) -> Result<File, Failure> {
+    begin(path)?;
+    File::create(path).map_err(|error| failed(path, &error))
+}
+
+/// Writes outputs, each in one step: a file has its old content or the new one. Either all are replaced, or, if one cannot
+/// be written, none.
+///
+/// # Errors
+/// The run uses a file already, or it cannot be written.
+pub(crate) fn write(outputs: &[(&Path, &[u8])]) -> Result<(), Failure> {
+    for (path, _) in outputs {
+        begin(path)?;
+    }
+    files::replace(outputs).map_err(|(path, error)| failed(&path, &error))
+}
+
+/// Reserves the path of an output, unless it is reserved already.
+fn begin(path: &Path) -> Result<(), Failure> {
     if !lock(&CLAIMED).iter().any(|claimed| claimed == path) {
         claim(path)?;
     }
     lock(&CLAIMED).retain(|claimed| claimed != path);
-    File::create(path).map_err(|error| {
-        let shown = path.display();
-        Failure::Failed(format!("{shown} cannot be written: {error}"))
-    })
+    Ok(())
+}
+
+fn failed(path: &Path, error: &io::Error) -> Failure {
+    let shown = path.display();
+    Failure::Failed(format!("{shown} cannot be written: {error}"))
 }

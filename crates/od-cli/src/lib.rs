@@ -155,6 +155,7 @@ fn groups(command: &clap::Command) -> String {
 
 /// The program `odkit`: parses the command line, runs the command, returns the exit code.
 pub fn main() -> ExitCode {
+    od_sim::serve::files::survive_limit();
     let command = Cli::command().after_help(source::device_list());
     let groups = groups(&command);
     let template = format!(

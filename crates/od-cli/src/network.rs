@@ -192,12 +192,13 @@ fn one(
             }
             files::claim(&folder.join(name))?;
         }
-        for (name, bytes) in &outputs {
-            fs::create_dir_all(folder).map_err(|error| {
-                Failure::Failed(format!("{} cannot be written: {error}", folder.display()))
-            })?;
-            output::write(&folder.join(name), bytes)?;
-        }
+        fs::create_dir_all(folder).map_err(|error| {
+            Failure::Failed(format!("{} cannot be written: {error}", folder.display()))
+        })?;
+        let paths: Vec<_> = outputs.iter().map(|(name, _)| folder.join(name)).collect();
+        let contents = outputs.iter().map(|(_, bytes)| bytes.as_slice());
+        let all: Vec<(&Path, &[u8])> = paths.iter().map(PathBuf::as_path).zip(contents).collect();
+        files::write(&all)?;
     }
     Config::of(&args.file)?.apply(&args.file, &mut findings);
     let colours = output::error_colours();

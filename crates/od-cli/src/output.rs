@@ -92,10 +92,7 @@ pub(crate) fn save(path: Option<&Path>, text: &str) -> Result<(), Failure> {
 /// # Errors
 /// The run uses this file already, or it cannot be written.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    files::create(path)?.write_all(bytes).map_err(|error| {
-        let shown = path.display();
-        Failure::Failed(format!("{shown} cannot be written: {error}"))
-    })
+    files::write(&[(path, bytes)])
 }
 
 fn open(result: io::Result<()>) -> Result<bool, Failure> {

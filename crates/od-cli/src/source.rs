@@ -149,7 +149,7 @@ impl Source {
     /// # Errors
     /// Reason why it cannot be read.
     pub(crate) fn file(path: &str) -> Result<Self, String> {
-        match fs::read(path) {
+        match od_sim::serve::files::read(Path::new(path)) {
             Ok(bytes) => {
                 let document = canopen(Document::new(bytes).named(path))?;
                 let overlay = Path::new(path);

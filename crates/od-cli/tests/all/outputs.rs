@@ -125,3 +125,33 @@ fn a_network_never_replaces_the_file_of_a_node() {
     fs::write(folder.path("net.yml"), project).expect("a file");
     folder.refuses("network $net.yml -o $", SAME);
 }
+
+/// A limit of the file size stands for a full disk: the write fails in the middle.
+#[cfg(unix)]
+#[test]
+fn an_output_that_cannot_be_written_leaves_the_old_files() {
+    use std::process::Command;
+
+    let folder = Folder::new("limit");
+    for name in ["a.xdd", "a.c", "a.h", "a.md"] {
+        fs::write(folder.path(name), "old\n").expect("a file");
+    }
+    for line in [
+        "convert $my.eds --lossy -o $a.xdd",
+        "convert $my.eds --lossy --to canopennode -o $a.c",
+        "convert $my.eds --lossy -o $new.json",
+        "conform gxmm --only nmt* --report $a.md",
+        "learn 1 --link bench:gxmm -o $new.eds",
+    ] {
+        let before = folder.content();
+        let line = line.replace('$', &folder.path(""));
+        // 1 block is 512 or 1,024 bytes.
+        let script = format!("ulimit -f 1; exec {} {line}", env!("CARGO_BIN_EXE_odkit"));
+        let done = Command::new("sh").args(["-c", &script]).output();
+        let done = done.expect("a shell");
+        let err = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(1), "{line}: {err}");
+        assert!(err.contains("cannot be written"), "{line}: {err}");
+        assert!(before == folder.content(), "{line}: a file was changed");
+    }
+}

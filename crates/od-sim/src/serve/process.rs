@@ -36,20 +36,6 @@ fn is_there(_: u32) -> bool {
     true
 }
 
-/// Turns a write beyond the limit of `ulimit -f` into an error with a message, instead of a signal
-/// that ends the process. It applies to this thread and the threads that it starts.
-#[cfg(unix)]
-pub(super) fn survive_file_limit() {
-    use nix::sys::signal::{SigSet, Signal};
-
-    let mut signals = SigSet::empty();
-    signals.add(Signal::SIGXFSZ);
-    let _ = signals.thread_block();
-}
-
-#[cfg(not(unix))]
-pub(super) fn survive_file_limit() {}
-
 /// Keeps SIGHUP ignored if it was ignored at the start, as `nohup` sets it; otherwise closing the terminal ends the bench.
 #[cfg(unix)]
 pub(super) fn respect_nohup() {

@@ -1,14 +1,13 @@
 //! Writes one line of JSON for the program that started the bench, when all links are open.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
 use super::control::address::ControlAddress;
 use super::error::Error;
-use super::files;
+use super::files::{self, Beside};
 use super::links::opened::{Opened, Protocol};
 use super::process;
 use crate::bus::Bus;
@@ -53,22 +52,9 @@ impl Ready {
     pub(super) fn write(&mut self, line: &str) -> Result<(), Error> {
         let path = &self.path;
         self.written = format!("{line}\n");
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let new = path.with_file_name(format!(".{name}.{}", std::process::id()));
-        let _ = fs::remove_file(&new);
-        let mut file = fs::OpenOptions::new();
-        let file = file.write(true).create_new(true);
         // Other users must not read the ports of this bench.
-        #[cfg(unix)]
-        std::os::unix::fs::OpenOptionsExt::mode(file, 0o600);
-        let file = file.open(&new);
-        let written = file.and_then(|mut file| file.write_all(self.written.as_bytes()));
-        written
-            .and_then(|()| fs::rename(&new, path))
-            .map_err(|error| {
-                let _ = fs::remove_file(&new);
-                Error::Failed(format!("--ready-file {}: {error}", path.display()))
-            })
+        let written = Beside::write(path, self.written.as_bytes(), true).and_then(Beside::put);
+        written.map_err(|error| Error::Failed(format!("--ready-file {}: {error}", path.display())))
     }
 }
 

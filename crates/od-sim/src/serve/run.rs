@@ -10,7 +10,7 @@ use super::clients::Clients;
 use super::control::address::ControlAddress;
 use super::error::Error;
 use super::events::Events;
-use super::files::Files;
+use super::files::{self, Files};
 use super::fleet::Maker;
 use super::links::opened::{Opened, Protocol};
 use super::links::{LINKS, Link};
@@ -28,7 +28,7 @@ use super::{control, fleet, greeting, process, running, terminal};
 pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Error> {
     // Set this before any thread starts, because threads inherit it.
     process::respect_nohup();
-    process::survive_file_limit();
+    files::survive_limit();
     if options.quiet {
         terminal::be_quiet();
     }
