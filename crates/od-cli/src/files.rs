@@ -78,6 +78,15 @@ pub(crate) fn write(outputs: &[(&Path, &[u8])]) -> Result<(), Failure> {
     files::replace(outputs).map_err(|(path, error)| failed(&path, &error))
 }
 
+/// Replaces an input that the run has corrected, in one step.
+///
+/// # Errors
+/// It cannot be written, in words.
+pub(crate) fn rewrite(path: &str, bytes: &[u8]) -> Result<(), String> {
+    let replaced = files::replace(&[(Path::new(path), bytes)]);
+    replaced.map_err(|(_, error)| format!("it cannot be written: {error}"))
+}
+
 /// Reserves the path of an output, unless it is reserved already.
 fn begin(path: &Path) -> Result<(), Failure> {
     if !lock(&CLAIMED).iter().any(|claimed| claimed == path) {

@@ -14,7 +14,6 @@ use od_eds::network::{self, Node};
 use od_eds::{Description, Document, Finding};
 use od_model::{Visible, is_hidden};
 
-use crate::check::fixed;
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
 use crate::network::project::Network;
@@ -89,7 +88,7 @@ fn fix_all(args: &Args, document: &mut Document) -> Result<(), Failure> {
     });
     if done.edits > 0 {
         let failed = |why| Failure::Failed(format!("{}: {why}", args.file));
-        fixed::write(&args.file, done.document.bytes()).map_err(failed)?;
+        files::rewrite(&args.file, done.document.bytes()).map_err(failed)?;
         let places = report::plural(done.edits, "place");
         output::note!("{places} fixed");
         *document = done.document;

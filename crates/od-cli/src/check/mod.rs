@@ -1,14 +1,18 @@
 //! `odkit check`: findings in device descriptions, and their fixes.
 
+use std::time::Duration;
+
 use od_eds::Document;
 use od_eds::check::parse_allow;
 use od_eds::fix;
 use od_eds::fix::{Applicability, Held};
 use od_eds::tools::{self, Tool};
 use od_eds::{Finding, Parsed, Severity};
+use similar::TextDiff;
 
 use crate::config::Config;
 use crate::failure::Failure;
+use crate::files::rewrite;
 use crate::output::{self, Output};
 use crate::report;
 use crate::source::Source;
@@ -17,7 +21,6 @@ use checked::{Checked, Summary};
 
 mod checked;
 mod files;
-pub(crate) mod fixed;
 mod github;
 mod json;
 mod lines;
@@ -156,9 +159,9 @@ impl Args {
                 let description = done.document.parse().description;
                 checked.names = report::names(&description, &done.findings);
                 if self.diff {
-                    checked.shown = fixed::difference(path, file.text(), done.document.text());
+                    checked.shown = difference(path, file.text(), done.document.text());
                 } else if done.edits > 0 {
-                    checked.failed = fixed::write(path, done.document.bytes()).err();
+                    checked.failed = rewrite(path, done.document.bytes()).err();
                 }
                 (checked.fixed, checked.findings) = (done.edits, done.findings);
                 checked.held = done.held;
@@ -333,4 +336,20 @@ fn hints(args: &Args, checked: &[Checked], summary: &Summary) -> Vec<String> {
         )),
     }
     hints
+}
+
+/// Time after which a diff of many lines shows more lines than it must.
+const DIFF_TIME: Duration = Duration::from_millis(500);
+
+/// A unified diff between two texts; empty if they are equal.
+fn difference(path: &str, before: &str, after: &str) -> String {
+    let mut config = TextDiff::configure();
+    let diff = config.timeout(DIFF_TIME).diff_lines(before, after);
+    let shown = diff
+        .unified_diff()
+        .context_radius(3)
+        .header(path, path)
+        .to_string();
+    // A carriage return would move the cursor of a terminal back.
+    shown.replace('\r', "")
 }
