@@ -191,9 +191,11 @@ fn one(
             }
             files::claim(&folder.join(name))?;
         }
-        fs::create_dir_all(folder).map_err(|error| {
-            Failure::Failed(format!("{} cannot be written: {error}", folder.display()))
-        })?;
+        if !outputs.is_empty() {
+            fs::create_dir_all(folder).map_err(|error| {
+                Failure::Failed(format!("{} cannot be written: {error}", folder.display()))
+            })?;
+        }
         let paths: Vec<_> = outputs.iter().map(|(name, _)| folder.join(name)).collect();
         let contents = outputs.iter().map(|(_, bytes)| bytes.as_slice());
         let all: Vec<(&Path, &[u8])> = paths.iter().map(PathBuf::as_path).zip(contents).collect();
