@@ -61,7 +61,7 @@ pub enum Error {
         /// Specific error of the manufacturer.
         specific: u8,
     },
-    /// The LSS slave responded with this node ID, which is neither 1 to 127 nor 255 (CiA 305, chapter 6.5.2).
+    /// The LSS slave responded with this node ID, which is neither 1 to 127 nor 255 (CiA 305, chapter 6.5.3).
     InvalidNodeId(u8),
     /// The LSS slave that fastscan was looking for did not confirm its LSS address.
     ScanFailed,

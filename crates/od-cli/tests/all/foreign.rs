@@ -210,7 +210,7 @@ fn networks_show_it() {
     run(&format!("network {}", file("foreign.cpj", &list).display()));
     // Findings quote keys and values; a fix writes the file again.
     let keys = format!(
-        "master:\n  node_id: 127\n  baudrate: 500\n  sync_peroid: 5\n  \"{}\": 1\nslave:\n  node_id: 200\n  dcf: {eds}\n",
+        "master:\n  node_id: 127\n  baudrate: 500\n  sync_periods: 5\n  \"{}\": 1\nslave:\n  node_id: 200\n  dcf: {eds}\n",
         EVIL.escape_debug()
     );
     let nodes = format!(

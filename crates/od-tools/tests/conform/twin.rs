@@ -157,7 +157,7 @@ fn a_start_equals_that_of_the_original() {
 fn recorded_times_errors_and_aborts_are_played() {
     let mut original = original();
     let text = recorded(&mut original, false)
-        .replace(";twin answer 0s", ";twin answer 3ms")
+        .replace(";twin answer 0ms", ";twin answer 3ms")
         .replace(";twin heartbeat 200ms", ";twin heartbeat 180ms")
         + ";twin emcy 20ms 8130h 11h 01 02 03 04 05\n;twin abort 6500h:00 08000022h\n";
     let (mut bus, _) = twin(&text);

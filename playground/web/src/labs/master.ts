@@ -66,11 +66,11 @@ class Master extends Lab {
       return check !== undefined && i !== 3 && !slave.checks[check] ? 'skipped' : 'done';
     };
     return html`<section class="slave">
-      <h4>${t.node(slave.node)} <span class="pill" data-tone=${slave.state === 'started' ? 'good' : slave.state === 'failed' || slave.state === 'lost' ? 'bad' : ''}>${t.state[slave.state]}</span></h4>
+      <h4>${t.node(slave.node)} <span class="pill" data-tone=${slave.state === 'started' ? 'good' : slave.state === 'failed' || slave.state === 'lost' ? 'bad' : ''}>${t.slave[slave.state]}</span></h4>
       <ol class="stages" aria-label=${t.chart(slave.node)}>${t.stages.map((name, i) => {
         const is = state(i);
         const at = slave.began[i];
-        return html`<li data-state=${is} title=${`${t.objects[i]}: ${t.state[is]}`}><span>${name}</span><small class="num">${at !== undefined && is !== 'open' ? t.after((at - start) / 1000) : t.objects[i]}</small><span class="sr">, ${t.state[is]}</span></li>`;
+        return html`<li data-state=${is} title=${`${t.objects[i]}: ${t.stage[is]}`}><span>${name}</span><small class="num">${at !== undefined && is !== 'open' ? t.after((at - start) / 1000) : t.objects[i]}</small><span class="sr">, ${t.stage[is]}</span></li>`;
       })}</ol>
       ${slave.status ? html`<p class="note" data-tone="error">${t.status(slave.status, said(slave.meaning))}${slave.reason ? html` <span class="num">(${said(slave.reason)})</span>` : nothing}</p>` : slave.reason ? html`<p class="note" data-tone="error">${said(slave.reason)}</p>` : nothing}
       ${slave.dcf ? html`<details><summary>${t.dcf(slave.node)}</summary><code class="num">${slave.dcf}</code></details>` : nothing}
