@@ -85,11 +85,25 @@ fn canopen(document: Document) -> Result<Document, String> {
         Some(name) => Err(format!(
             "it is {name}, not a device file of CANopen; odkit reads EDS, DCF, XDD and XDC files"
         )),
-        None if od_eds::lacks_sections(document.text()) => Err(String::from(
-            "it has no section of an EDS, such as [FileInfo]; odkit reads EDS, DCF, XDD and XDC files",
-        )),
+        None if od_eds::lacks_sections(document.text()) => {
+            Err(String::from(if is_network(document.text()) {
+                "it is a project or a node list, not a device; `odkit network FILE` checks it"
+            } else {
+                "it has no section of an EDS, such as [FileInfo]; odkit reads EDS, DCF, XDD and XDC files"
+            }))
+        }
         None => Ok(document),
     }
+}
+
+/// Returns whether a line begins the master or the nodes of a project, or the topology of a node list.
+fn is_network(text: &str) -> bool {
+    let mut lines = text.lines();
+    lines.any(|line| {
+        line.starts_with("master:")
+            || line.starts_with("nodes:")
+            || line.to_ascii_lowercase().starts_with("[topology")
+    })
 }
 
 impl Source {

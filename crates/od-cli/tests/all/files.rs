@@ -175,6 +175,23 @@ fn dump_refuses_what_is_not_a_device() {
 }
 
 #[test]
+fn check_of_a_network_names_the_command_for_it() {
+    for (name, text) in [
+        (
+            "bus.yml",
+            "options:\n  dcf_path: x\nmaster:\n  node_id: 1\n",
+        ),
+        ("nodelist.cpj", "[Topology]\nNodes=0\n"),
+    ] {
+        let path = file(name, text).display().to_string();
+        let run = odkit(&["check", &path], "");
+        assert_eq!(run.code, 1);
+        let hint = "a project or a node list, not a device; `odkit network FILE` checks it";
+        assert!(run.err.contains(hint), "{}", run.err);
+    }
+}
+
+#[test]
 fn a_file_with_errors_runs_with_its_valid_rest() {
     let path = file("runs.eds", BROKEN).display().to_string();
     let run = odkit(
