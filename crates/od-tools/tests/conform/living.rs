@@ -17,7 +17,7 @@ use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_tools::nmt;
 use od_wire::nmt::Command;
-use od_wire::{Duration, Frame, Instant, NodeId};
+use od_wire::{CanId, Duration, Frame, Instant, NodeId};
 
 use crate::simulated::{alone, bus};
 
@@ -469,6 +469,85 @@ fn a_node_has_its_own_node_id_after_each_case_about_lss() {
             assert!(!has_boot_up || passed > 5, "{name}: {passed}");
         }
     }
+}
+
+/// A node that takes a configured node ID at once, without a reset. Behind it, the node keeps its own.
+struct Hasty {
+    bus: OnBench<Bus>,
+    own: u16,
+    taken: u16,
+}
+
+impl Hasty {
+    /// The frame with a node ID in place of another one, in its CAN-ID or in an NMT command.
+    fn translated(frame: &Frame, from: u16, to: u16) -> Frame {
+        let id = frame.id().as_standard().unwrap_or_default();
+        match *frame.data() {
+            [command, node] if id == 0 && u16::from(node) == from => {
+                Frame::standard(0, &[command, to as u8])
+            }
+            _ if id & 0x7F == from && id < 0x780 && !frame.is_remote() => {
+                let id = CanId::standard(id - from + to);
+                Frame::with_dlc(id, *frame.bytes(), frame.dlc())
+            }
+            _ => *frame,
+        }
+    }
+}
+
+impl Link for Hasty {
+    fn now(&self) -> Instant {
+        self.bus.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        let mut frame = *frame;
+        if let (Some(0x7E5), [0x11, node @ 1..=127, ..]) = (frame.id().as_standard(), frame.data())
+        {
+            self.taken = u16::from(*node);
+            frame = Frame::standard(0x7E5, &[0x11, self.own as u8, 0, 0, 0, 0, 0, 0]);
+        }
+        // 7Fh is nobody's node ID here.
+        let frame = match self.taken == self.own {
+            true => frame,
+            false => Self::translated(
+                &Self::translated(&frame, self.own, 0x7F),
+                self.taken,
+                self.own,
+            ),
+        };
+        self.bus.send(&frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        let heard = self.bus.receive(until)?;
+        Ok(heard.map(|heard| Heard {
+            frame: Self::translated(&heard.frame, self.own, self.taken),
+            ..heard
+        }))
+    }
+}
+
+impl Rig for Hasty {}
+
+#[test]
+fn a_node_that_takes_a_node_id_at_once_gets_its_own_back() {
+    let own = NodeId::new(5).expect("a node ID");
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let cases = built_in().iter().filter(|case| case.group == "LSS");
+    let mut failed = 0;
+    for case in cases {
+        let mut rig = Hasty {
+            bus: OnBench(alone(VirtualDevice::new(kind, own))),
+            own: 5,
+            taken: 5,
+        };
+        let record = Session::new(&mut rig, &eds, own, Leave::ALL).run(case);
+        failed += u32::from(matches!(record.verdict, Verdict::Fail { .. }));
+        assert_eq!(rig.taken, 5, "{}: {:?}", case.id, record.verdict);
+    }
+    assert!(failed > 1, "{failed}");
 }
 
 /// Without the permission, no frame of the test enables an axis, writes a target or sets an output.

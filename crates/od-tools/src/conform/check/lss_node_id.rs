@@ -161,7 +161,7 @@ pub(super) fn store_node_id(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn forgets_node_id(dut: &mut Dut<'_>) -> Checked {
     let own = dut.node;
     let other = another_id(dut)?;
-    configured(dut)?;
+    let all = configured(dut)?;
     let node_id = other.raw();
     let answer = ask(dut, Request::ConfigureNodeId { node_id })?;
     waiting(dut)?;
@@ -178,9 +178,20 @@ pub(super) fn forgets_node_id(dut: &mut Dut<'_>) -> Checked {
             let note = format!("could not put back node ID {own}: the node has node ID {other}");
             dut.notes.push(note);
         }
+    } else if done.is_err() {
+        // It may have the other one without a start.
+        give_back(dut, all)?;
     }
     dut.nmt(Command::EnterPreOperational)?;
     done
+}
+
+/// Configures the node ID of the node, which may have another one, by its LSS address.
+fn give_back(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
+    select(dut, all)?;
+    let node_id = dut.node.raw();
+    ask(dut, Request::ConfigureNodeId { node_id })?;
+    waiting(dut)
 }
 
 /// Stores the LSS configuration.
@@ -257,10 +268,7 @@ pub(super) fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
         }
         _ => {
             // The node may have taken the node ID without a boot-up message: it gets its own again.
-            select(dut, all)?;
-            let node_id = before.raw();
-            ask(dut, Request::ConfigureNodeId { node_id })?;
-            waiting(dut)?;
+            give_back(dut, all)?;
             Ok(false)
         }
     }
