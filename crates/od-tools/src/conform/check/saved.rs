@@ -229,24 +229,31 @@ pub(super) fn heartbeat(dut: &mut Dut<'_>) -> Checked {
         }
         dut.wait(300_000)?;
         let beats = dut.frames.iter().rev();
-        let mut beats = beats.filter(|one| !one.ours && is_data(&one.frame, id));
+        let beats = beats.filter(|one| !one.ours && is_data(&one.frame, id));
         // Up to the boot-up message, which counts as the first one (CiA 301, 7.2.8.3.3).
-        let mut last = None;
+        let mut last: Option<Instant> = None;
         let mut gaps = Vec::new();
-        let mut is_over = false;
-        while let Some(one) = beats.next().filter(|_| !is_over) {
-            gaps.extend(
-                last.replace(one.at)
-                    .map(|next: Instant| next.micros_since(one.at)),
-            );
-            is_over = one.frame.data() == [0];
+        for one in beats {
+            gaps.extend(last.replace(one.at).map(|next| next.micros_since(one.at)));
+            if one.frame.data() == [0] {
+                break;
+            }
         }
-        let shortest = gaps.iter().min().copied().unwrap_or(u64::MAX);
-        ensure(
-            shortest + dut.rig.slack() >= 50_000,
-            "heartbeats every 100 ms from the boot-up message on, as 1017h = 100 was saved",
-            format!("one came after {} ms", shortest / 1000),
-        )
+        let slack = dut.rig.slack();
+        let is_early = |gap: &u64| gap + slack < 50_000;
+        if let Some(gap) = gaps.pop_if(|gap| is_early(gap)) {
+            let millis = gap / 1000;
+            dut.notes.push(format!(
+                "a heartbeat came {millis} ms after the boot-up message, which counts as the first one (CiA 301, 7.2.8.3.3)"
+            ));
+        }
+        match gaps.into_iter().find(is_early) {
+            Some(gap) => fail(
+                "heartbeats every 100 ms, as 1017h = 100 was saved",
+                format!("one came after {} ms", gap / 1000),
+            ),
+            None => Ok(()),
+        }
     })
 }
 
