@@ -507,15 +507,11 @@ impl Link for Hasty {
             self.taken = u16::from(*node);
             frame = Frame::standard(0x7E5, &[0x11, self.own as u8, 0, 0, 0, 0, 0, 0]);
         }
-        // 7Fh is nobody's node ID here.
-        let frame = match self.taken == self.own {
-            true => frame,
-            false => Self::translated(
-                &Self::translated(&frame, self.own, 0x7F),
-                self.taken,
-                self.own,
-            ),
-        };
+        if self.taken != self.own {
+            // 7Fh is nobody's node ID here.
+            frame = Self::translated(&frame, self.own, 0x7F);
+            frame = Self::translated(&frame, self.taken, self.own);
+        }
         self.bus.send(&frame)
     }
 
