@@ -23,7 +23,7 @@ use od_tools::compare::compare;
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Verdict;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_tools::learn::{Options, learn};
 use od_tools::master::Master;
 use od_wire::NodeId;
@@ -208,7 +208,7 @@ fn failed(text: &str) -> Vec<String> {
     };
     let eds = Eds::read(text);
     let mut rig = OnBench(bus);
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::ALL);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::ALL);
     let records = built_in().iter().map(|case| session.run(case));
     let failed = records.filter_map(|record| match record.verdict {
         Verdict::Fail { expected, got } => {

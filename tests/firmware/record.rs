@@ -16,7 +16,7 @@ use od_tests::scripts::Header;
 use od_tools::bench::OnBench;
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 
 use crate::log::{Log, Writer};
 
@@ -107,7 +107,7 @@ pub(crate) fn conform(name: &str) -> Result<Log, String> {
     bus.start(number);
     let eds = Eds::read(&od_devices::text::eds(kind));
     let mut rig = OnBench(&mut bus);
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::ALL);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::ALL);
     for case in built_in() {
         let record = session.run(case);
         if record.verdict.is_fail() {

@@ -12,7 +12,7 @@ use od_tools::conform::pulse::Pulse;
 use od_tools::conform::record::{Record, Verdict};
 use od_tools::conform::report::{About, Format, Report};
 use od_tools::conform::rig::{RealBus, Rig};
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_tools::interrupt::Interruptible;
 use od_tools::link::Link;
 use od_tools::links;
@@ -201,7 +201,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
         let node = rig.0.devices()[0].node_id();
         let source = Source::find(simulated)?;
         let fresh = |node: Option<NodeId>| source.device(node.or(args.node_id));
-        let mut session = Session::new(&mut rig, &parsed, node, Leave::ALL);
+        let mut session = Session::new(&mut rig, &parsed, node, Permissions::ALL);
         session.simulates(simulated, &fresh);
         let records = all(&mut session, cases, false);
         let mut report = report("simulated, virtual time", node, (records, &session));
@@ -209,12 +209,12 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
         return Ok(report);
     }
     let node = args.node_id.unwrap_or(NodeId::ONE);
-    let leave = Leave {
+    let permissions = Permissions {
         reset: args.allow_reset,
         store: args.allow_store,
         motion: args.allow_motion,
     };
-    announce(eds.text(), &parsed, leave, cases);
+    announce(eds.text(), &parsed, permissions, cases);
     let link = link.as_deref().unwrap_or_default();
     let mut rig = RealBus {
         link: Box::new(Interruptible::new(
@@ -224,7 +224,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
         power: args.power.clone(),
         pulse: Some(Pulse::start()),
     };
-    let mut session = Session::new(&mut rig, &parsed, node, leave);
+    let mut session = Session::new(&mut rig, &parsed, node, permissions);
     let records = all(&mut session, cases, true);
     let mut report = report(link, node, (records, &session));
     if report.lost.is_none() {
@@ -344,7 +344,7 @@ fn all(session: &mut Session<'_>, cases: &[Case], told: bool) -> Vec<Record> {
 }
 
 /// Prints how long the test will take: the time that the simulated device of the same EDS needs.
-fn announce(text: &str, eds: &Eds, leave: Leave, cases: &[Case]) {
+fn announce(text: &str, eds: &Eds, permissions: Permissions, cases: &[Case]) {
     let options = od_sim::EdsOptions {
         node_id: None,
         lenient: true,
@@ -358,7 +358,7 @@ fn announce(text: &str, eds: &Eds, leave: Leave, cases: &[Case]) {
     bus.start(number);
     let mut rig = OnBench(bus);
     let micros: u64 = {
-        let mut session = Session::new(&mut rig as &mut dyn Rig, eds, node, leave);
+        let mut session = Session::new(&mut rig as &mut dyn Rig, eds, node, permissions);
         let records = all(&mut session, cases, false);
         // A bench needs no time for a frame; a real bus needs about a millisecond.
         let took = |record: &Record| record.micros + 1000 * record.frames.len() as u64;

@@ -3,7 +3,7 @@
 use od_sim::words::Decoder;
 use od_tools::conform::case::{Case, built_in};
 use od_tools::conform::eds::Eds;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -87,7 +87,7 @@ pub(crate) struct Conform {
     client: Py<Client>,
     node: od_wire::NodeId,
     eds: Eds,
-    leave: Leave,
+    permissions: Permissions,
     /// Reason why the test cannot continue, and number of cases in a row without a response.
     past: std::sync::Mutex<(Option<String>, u8)>,
 }
@@ -110,7 +110,7 @@ impl Conform {
             client,
             node: id_of(node_id)?,
             eds: Eds::read(read.source.document.text()),
-            leave: Leave {
+            permissions: Permissions {
                 reset: allow_reset,
                 store: allow_store,
                 motion: allow_motion,
@@ -150,7 +150,7 @@ impl Conform {
         }
         let (record, now) = self.client.bind(py).get().with(py, |core| {
             core.catch_up()?;
-            let mut session = Session::new(&mut core.line, &self.eds, self.node, self.leave);
+            let mut session = Session::new(&mut core.line, &self.eds, self.node, self.permissions);
             session.resume_after(silences);
             let record = session.run(case);
             Ok((

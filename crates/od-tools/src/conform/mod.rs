@@ -6,7 +6,7 @@
 //! use od_tools::bench::OnBench;
 //! use od_tools::conform::case::built_in;
 //! use od_tools::conform::eds::Eds;
-//! use od_tools::conform::session::{Leave, Session};
+//! use od_tools::conform::session::{Permissions, Session};
 //! use od_wire::NodeId;
 //!
 //! let text = include_str!("../../../../devices/eds/GXMM.eds");
@@ -16,7 +16,7 @@
 //! bus.start(number);
 //! let eds = Eds::read(text);
 //! let mut rig = OnBench(bus);
-//! let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+//! let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
 //! let case = built_in().iter().find(|case| case.id == "sdo-upload-expedited");
 //! let record = session.run(case.expect("a case"));
 //! assert!(record.verdict.is_pass());

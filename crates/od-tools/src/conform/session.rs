@@ -38,7 +38,7 @@ const POWER_OFF: u64 = 500_000;
 
 /// Permissions of the test.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Leave {
+pub struct Permissions {
     /// Reset the node.
     pub reset: bool,
     /// Save and restore values in the node's memory.
@@ -47,7 +47,7 @@ pub struct Leave {
     pub motion: bool,
 }
 
-impl Leave {
+impl Permissions {
     /// All of it, for a simulated device.
     pub const ALL: Self = Self {
         reset: true,
@@ -72,7 +72,7 @@ pub struct Session<'s> {
     rig: &'s mut dyn Rig,
     eds: &'s Eds,
     node: NodeId,
-    leave: Leave,
+    permissions: Permissions,
     deviations: Deviations,
     times: Times,
     lost: Option<String>,
@@ -86,12 +86,12 @@ pub struct Session<'s> {
 
 impl<'s> Session<'s> {
     /// A test of `node` on `rig`, according to `eds`.
-    pub fn new(rig: &'s mut dyn Rig, eds: &'s Eds, node: NodeId, leave: Leave) -> Self {
+    pub fn new(rig: &'s mut dyn Rig, eds: &'s Eds, node: NodeId, permissions: Permissions) -> Self {
         Self {
             rig,
             eds,
             node,
-            leave,
+            permissions,
             deviations: Deviations::built_in(),
             times: Times::default(),
             lost: None,
@@ -204,8 +204,8 @@ impl<'s> Session<'s> {
             frames: Vec::new(),
             undo: Vec::new(),
             notes: Vec::new(),
-            may_reset: self.leave.reset,
-            may_move: self.leave.motion,
+            may_reset: self.permissions.reset,
+            may_move: self.permissions.motion,
             sync_id: 0x80,
             fresh: self.simulated.map(|(_, fresh)| fresh),
             silence: 0,
@@ -220,7 +220,15 @@ impl<'s> Session<'s> {
         let mut result = match &self.lost {
             Some(why) => skip(why),
             None => responds(&mut dut, self.silences)
-                .and_then(|()| may(case, self.leave, &self.deviations, &dut, self.simulated))
+                .and_then(|()| {
+                    may(
+                        case,
+                        self.permissions,
+                        &self.deviations,
+                        &dut,
+                        self.simulated,
+                    )
+                })
                 .and_then(|()| {
                     let own = self.simulated.filter(|_| !case.devices.is_empty());
                     let done = match (own, &case.steps[..]) {
@@ -304,7 +312,7 @@ impl<'s> Session<'s> {
 /// Returns whether the case may be run, and applies to this node.
 fn may(
     case: &Case,
-    leave: Leave,
+    permissions: Permissions,
     deviations: &Deviations,
     dut: &Dut<'_>,
     simulated: Option<(&str, Fresh<'_>)>,
@@ -332,10 +340,10 @@ fn may(
     }
     for need in &case.needs {
         let (allowed, option) = match need.as_str() {
-            "reset" => (leave.reset, "--allow-reset"),
-            "store" => (leave.store, "--allow-store"),
+            "reset" => (permissions.reset, "--allow-reset"),
+            "store" => (permissions.store, "--allow-store"),
             "motion" => (
-                leave.motion,
+                permissions.motion,
                 "--allow-motion, since it moves an axis or sets outputs",
             ),
             _ => (dut.rig.has_power(), "--power COMMAND"),

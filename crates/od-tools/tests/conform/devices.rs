@@ -6,7 +6,7 @@ use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Record;
 use od_tools::conform::report::{About, Format, Report};
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_wire::NodeId;
 
 use crate::simulated::alone;
@@ -20,7 +20,7 @@ fn run(device: VirtualDevice, text: &str, rpm: f64) -> Report {
     }
     let eds = Eds::read(text);
     let mut rig = OnBench(bus);
-    let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);
+    let mut session = Session::new(&mut rig, &eds, node, Permissions::ALL);
     let records: Vec<Record> = built_in().iter().map(|case| session.run(case)).collect();
     Report {
         about: About::default(),

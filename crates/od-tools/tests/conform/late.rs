@@ -9,7 +9,7 @@ use od_tools::conform::case::{Case, built_in};
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Verdict;
 use od_tools::conform::rig::RealBus;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_wire::{Frame, Instant, NodeId};
@@ -63,7 +63,7 @@ fn heartbeats_between_request_and_response_fail_no_case() {
             power: None,
             pulse: None,
         };
-        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
         for case in built_in() {
             let record = session.run(case);
             if let Verdict::Fail { expected, got } = record.verdict {
@@ -86,7 +86,7 @@ fn a_case_about_heartbeats_receives_them() {
         power: None,
         pulse: None,
     };
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
     for (first, is_heard) in [("", false), ("expect 701#7F\n", true)] {
         let text = format!("# CiA 301: Own.\n# Group: NMT\n{first}expect silence 20ms\n");
         let case = Case::parse("own", &text).expect("a case");

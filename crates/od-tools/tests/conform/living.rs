@@ -12,7 +12,7 @@ use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::{Record, Verdict};
 use od_tools::conform::rig::Rig;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_tools::nmt;
@@ -56,12 +56,12 @@ fn run(change: impl FnMut(Frame) -> Option<Frame>) -> (Vec<Record>, Option<Strin
         bus: OnBench(bus("gxmm")),
         change,
     };
-    let leave = Leave {
+    let permissions = Permissions {
         reset: true,
         store: false,
         motion: true,
     };
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, permissions);
     let records = built_in().iter().map(|case| session.run(case)).collect();
     let lost = session.lost().map(str::to_owned);
     (records, lost)
@@ -142,12 +142,12 @@ fn an_error_that_is_there_before_a_case_does_not_fail_it() {
                 Some(frame)
             },
         };
-        let leave = Leave {
+        let permissions = Permissions {
             reset: true,
             store: false,
             motion: false,
         };
-        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, permissions);
         let case = built_in().iter().find(|case| case.id == id);
         let record = session.run(case.expect("a case"));
         assert_eq!(record.verdict, Verdict::Pass, "{id}");
@@ -251,12 +251,12 @@ fn a_busy_computer_reports_no_node_as_wrong() {
             late: Cell::default(),
             spoiled: SPOTLESS,
         };
-        let leave = Leave {
+        let permissions = Permissions {
             reset: true,
             store: false,
             motion: true,
         };
-        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, permissions);
         let records: Vec<_> = built_in().iter().map(|case| session.run(case)).collect();
         let failed = records.iter().filter(|one| one.verdict.is_fail());
         let failed: Vec<_> = failed.map(|one| (&one.id, &one.verdict)).collect();
@@ -304,7 +304,7 @@ fn a_busy_computer_knows_what_a_node_accepts() {
                 late: Cell::default(),
                 spoiled,
             };
-            let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+            let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
             let record = session.run(case);
             let expected = if is_wrong {
                 record.verdict.is_fail()
@@ -332,12 +332,12 @@ fn a_busy_computer_detects_missing_frames() {
             (!is_boot).then_some(frame)
         },
     };
-    let leave = Leave {
+    let permissions = Permissions {
         reset: true,
         store: false,
         motion: true,
     };
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, permissions);
     for id in [
         "nmt-boot-up",
         "nmt-boot-up-first",
@@ -398,7 +398,7 @@ fn on_a_busy_computer_too_a_node_that_never_responds_fails_its_first_case() {
         late: Cell::new(0),
         spoiled: |_| None,
     };
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
     let case = built_in().iter().find(|case| case.id == "nmt-start");
     let record = session.run(case.expect("a case"));
     assert!(record.verdict.is_fail(), "{:?}", record.verdict);
@@ -421,7 +421,7 @@ fn a_failure_that_depends_on_time_must_be_seen_twice() {
             beats: 0,
             is_lost,
         };
-        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
         let verdict = session.run(case).verdict;
         let is = match &verdict {
             Verdict::Skipped(why) => why,
@@ -451,7 +451,7 @@ fn a_node_has_its_own_node_id_after_each_case_about_lss() {
                         (has_boot_up || !is_boot_up).then_some(frame)
                     },
                 };
-                let record = Session::new(&mut rig, &eds, own, Leave::ALL).run(case);
+                let record = Session::new(&mut rig, &eds, own, Permissions::ALL).run(case);
                 passed += u32::from(record.verdict.is_pass());
                 let mut master = Master::new(rig.bus, own);
                 for command in [Command::EnterPreOperational, Command::ResetNode] {
@@ -539,7 +539,7 @@ fn a_node_that_takes_a_node_id_at_once_gets_its_own_back() {
             own: 5,
             taken: 5,
         };
-        let record = Session::new(&mut rig, &eds, own, Leave::ALL).run(case);
+        let record = Session::new(&mut rig, &eds, own, Permissions::ALL).run(case);
         failed += u32::from(matches!(record.verdict, Verdict::Fail { .. }));
         assert_eq!(rig.taken, 5, "{}: {:?}", case.id, record.verdict);
     }
@@ -557,11 +557,11 @@ fn nothing_moves_without_permission() {
         let kind = od_devices::find(name).expect("a device");
         let eds = Eds::read(&od_devices::text::eds(kind));
         let mut rig = OnBench(bus(name));
-        let leave = Leave {
+        let permissions = Permissions {
             motion: false,
-            ..Leave::ALL
+            ..Permissions::ALL
         };
-        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, permissions);
         let (mut skipped, mut wrong) = (0, Vec::new());
         for case in built_in() {
             let record = session.run(case);

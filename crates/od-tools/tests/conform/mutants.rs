@@ -7,7 +7,7 @@ use od_sim::{EdsOptions, VirtualDevice};
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::{Record, Verdict};
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_wire::NodeId;
 
 use crate::mutant::Spoiled;
@@ -169,7 +169,7 @@ impl Bench {
         });
         let other = other.map(|text| Eds::read(&text));
         let eds = other.as_ref().unwrap_or(&self.eds);
-        let record = Session::new(&mut rig, eds, NodeId::ONE, Leave::ALL).run(case);
+        let record = Session::new(&mut rig, eds, NodeId::ONE, Permissions::ALL).run(case);
         self.bus = (!is_lasting(id)).then(|| rig.into_bus());
         record
     }

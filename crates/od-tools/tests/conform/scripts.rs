@@ -4,7 +4,7 @@ use od_tools::bench::OnBench;
 use od_tools::conform::case::Case;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Verdict;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_wire::NodeId;
 
 fn case(steps: &str) -> Result<Case, String> {
@@ -16,7 +16,7 @@ fn verdict(steps: &str) -> Verdict {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     let mut rig = OnBench(super::simulated::bus("gxmm"));
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::ALL);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::ALL);
     session.run(&case(steps).expect("a case")).verdict
 }
 

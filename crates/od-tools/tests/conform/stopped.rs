@@ -12,7 +12,7 @@ use od_tools::conform::eds::Eds;
 use od_tools::conform::record::{Record, Verdict};
 use od_tools::conform::report::{About, Format, Report};
 use od_tools::conform::rig::{RealBus, Rig};
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_tools::interrupt::Interruptible;
 use od_tools::learn::{Options, learn};
 use od_tools::link::{Heard, Link};
@@ -56,7 +56,7 @@ fn values(bus: &mut Bus, eds: &Eds) -> Vec<(Address, Option<Vec<u8>>)> {
 
 /// Runs all cases; returns the report.
 fn run(rig: &mut dyn Rig, eds: &Eds) -> Report {
-    let mut session = Session::new(rig, eds, NodeId::ONE, Leave::default());
+    let mut session = Session::new(rig, eds, NodeId::ONE, Permissions::default());
     let records: Vec<Record> = built_in().iter().map(|case| session.run(case)).collect();
     Report {
         about: About::default(),
@@ -204,7 +204,7 @@ fn a_power_command_that_fails_is_named() {
         power: Some("exit 3; echo".into()),
         pulse: None,
     };
-    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::ALL);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::ALL);
     let case = built_in().iter().find(|case| case.id == "nmt-power-on");
     let record = session.run(case.expect("a case"));
     let Verdict::Skipped(why) = &record.verdict else {

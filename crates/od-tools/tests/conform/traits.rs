@@ -6,7 +6,7 @@ use od_tools::bench::OnBench;
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Verdict;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 
 use crate::simulated::alone;
 
@@ -186,7 +186,7 @@ fn failed(text: &str) -> Vec<(&'static str, String)> {
         let options = EdsOptions { node_id, ..options };
         Ok(VirtualDevice::from_eds(text, options).expect("a device"))
     };
-    let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);
+    let mut session = Session::new(&mut rig, &eds, node, Permissions::ALL);
     session.simulates("plain", &fresh);
     let mut failed = Vec::new();
     for case in built_in() {

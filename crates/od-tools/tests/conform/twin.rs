@@ -8,7 +8,7 @@ use od_tools::bench::OnBench;
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Record;
-use od_tools::conform::session::{Leave, Session};
+use od_tools::conform::session::{Permissions, Session};
 use od_tools::learn::record::{Watch, record};
 use od_tools::learn::{Options, learn};
 use od_tools::link::Link;
@@ -191,7 +191,7 @@ fn the_verdicts_equal_those_of_the_original() {
     let eds = Eds::read(&text);
     let verdicts = |bus: Bus| {
         let mut rig = OnBench(bus);
-        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Permissions::default());
         let cases = built_in()
             .iter()
             .filter(|case| ["EDS", "SDO", "objects", "TIME"].contains(&case.group.as_str()))
