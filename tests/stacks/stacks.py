@@ -267,7 +267,7 @@ def page(folder):
         "`tests/stacks/stacks.py` builds each stack outside the repository, puts a slave made with it behind slcan, and runs",
         "`odkit conform` with resets, stores and outputs allowed. A failure belongs to this slave and the EDS of the test: a service that the EDS declares and",
         "the stack leaves to its application counts as a failure, too. Each failure was judged by its frames.",
-        "Skipped are the case that switches the power, and those in which the computer of the test was late.",
+        "Skipped are the cases that switch the power, and those in which the computer of the test was late.",
         "",
         "| stack | version | passed | failed | skipped | not applicable |",
         "|---|---|---|---|---|---|",
