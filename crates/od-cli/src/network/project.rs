@@ -192,7 +192,7 @@ impl<'a> Section<'a> {
         found.collect()
     }
 
-    /// What writes an object; the whole section if no setting does.
+    /// The setting that writes an object; the whole section if none does.
     fn place_of_write(&self, address: Address, wanted: &Configuration) -> &'a Yaml {
         let of_pdo = |key| {
             let (number, pdo) = self.pdo_of(key, (address.index & 0x1FF) + 1)?;

@@ -167,7 +167,7 @@ impl Yaml {
     }
 }
 
-/// The quoted text at the beginning of a text, with its quotes; `None` if there is none.
+/// The quotation at the beginning of a line, with its quotes; `None` if the line does not begin with one, or it has no end.
 fn quoted(text: &str) -> Option<&str> {
     let quote = text
         .chars()

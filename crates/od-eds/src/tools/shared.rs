@@ -1,4 +1,4 @@
-//! What the readers of several tools share: section names, and the rule of a file that a tool rejects.
+//! Section names, and the rule of a file that a tool rejects: the readers of several tools use them.
 
 use crate::finding::{Fixability, Form, Rule};
 use crate::fix::Fix;

@@ -196,6 +196,8 @@ impl Beside {
         let mut file = options.open(&beside)?;
         let one = Self { beside, place };
         file.write_all(bytes)?;
+        // A power failure right after the replacement must not find an empty file.
+        file.sync_all()?;
         if let Some(before) = before {
             file.set_permissions(before)?;
         }

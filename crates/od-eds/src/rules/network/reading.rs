@@ -1,4 +1,4 @@
-//! What ends the reading of a node or of a network: rules that the readers of projects and node lists report.
+//! Rules of the readers of projects and node lists: errors that end the reading of a node or of a network.
 
 use alloc::format;
 

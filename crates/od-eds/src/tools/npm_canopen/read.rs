@@ -118,7 +118,7 @@ impl Reader {
         self.reading.entries.insert((index, sub), entry);
     }
 
-    /// What all sections have: name, type, access and limits.
+    /// Name, type, access and limits, which each section has.
     fn entry(&mut self, section: &Section) -> ReadEntry {
         let name = match section.text("ParameterName") {
             Some((Given::Text(name), _)) => Some(name.clone()),
